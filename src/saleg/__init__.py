@@ -1,0 +1,36 @@
+"""saleg: simulator of free-piston linear engine generators.
+
+An engine is a translator between two chambers, with laws in slots; a kernel integrates it and
+stops exactly at its events; results only read. All quantities are in SI units.
+"""
+
+from saleg import laws, machines
+from saleg.engine import BounceChamber, Cylinder, Engine, Fuel, Intake, Translator
+from saleg.errors import EngineFileError, InvalidEngine, LawError, SalegError, UnknownPath
+from saleg.performance import EnergyBalance, Performance
+from saleg.results import Run
+from saleg.simulate import simulate
+from saleg.status import Status
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "BounceChamber",
+    "Cylinder",
+    "EnergyBalance",
+    "Engine",
+    "EngineFileError",
+    "Fuel",
+    "Intake",
+    "InvalidEngine",
+    "LawError",
+    "Performance",
+    "Run",
+    "SalegError",
+    "Status",
+    "Translator",
+    "UnknownPath",
+    "laws",
+    "machines",
+    "simulate",
+]

@@ -1,0 +1,42 @@
+"""Errors a user can cause, each with a message that says what to change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from saleg.quantities import Problem
+
+
+class SalegError(Exception):
+    """Base of all errors that are the user's to mend."""
+
+
+class InvalidEngine(SalegError, ValueError):
+    """An engine with fields out of range; `problems` lists them all.
+
+    Attributes
+    ----------
+    problems : list of Problem
+        Path, value, unit and allowed range of every wrong field.
+    """
+
+    def __init__(self, problems: Iterable[Problem]):
+        self.problems = list(problems)
+        count = len(self.problems)
+        lines = "\n".join(f"  {problem}" for problem in self.problems)
+        super().__init__(f"{count} wrong field{'s' if count > 1 else ''} in the engine:\n{lines}")
+
+
+class UnknownPath(SalegError, KeyError):
+    """A dotted path that leads nowhere in an engine."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class EngineFileError(SalegError, ValueError):
+    """An engine file that cannot be read; names file and key."""
+
+
+class LawError(SalegError, TypeError):
+    """A law that cannot be compiled; names law, method and the offending name."""

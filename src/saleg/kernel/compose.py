@@ -1,0 +1,280 @@
+"""Composer: joins the kernel's modules with the laws of an engine into one compiled module.
+
+The text of the kernel is taken as it stands; only the slots are written anew, with the source of
+the chosen laws. The whole text is hashed, kept in the cache folder and imported from there, so
+that a second process finds the machine code, and an edited law, helper or constant makes another
+text and hence another module.
+"""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import hashlib
+import inspect
+import itertools
+import sys
+import types
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.errors import LawError
+from saleg.kernel import jit
+from saleg.kernel.cache import locked, usable_folder, write_atomically
+from saleg.kernel.source import Borrowed, NoSource
+from saleg.laws import CFRIgnition, InstantExchange, Law, Wiebe
+from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
+
+if TYPE_CHECKING:
+    from saleg.engine import Chamber, Engine
+
+PACKAGE = Path(__file__).resolve().parent.parent
+BEFORE_SLOTS = ("laws/arguments.py", "kernel/layout.py")
+INTEGRATOR = ("rhs", "step", "events", "peaks", "switch", "observe", "integrate")
+
+#: What fills the combustion slots of a bounce chamber; never called, since it never lights.
+IDLE_LAWS: dict[str, Law] = {
+    "heat_release": Wiebe(),
+    "ignition": CFRIgnition(),
+    "gas_exchange": InstantExchange(),
+}
+
+_numbers = itertools.count()
+
+
+class Kernel:
+    """Compiled kernel for one choice of laws.
+
+    Parameters
+    ----------
+    module : module
+        The composed module.
+    lock : Path or None
+        File that serialises compilation among processes.
+    """
+
+    def __init__(self, module: types.ModuleType, lock: Path | None):
+        self.module = module
+        self._lock = lock
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.module, name)
+
+    def call(self, name: str, *arguments: Any) -> Any:
+        """Call an entry point; the first call compiles it, one process at a time."""
+        function = getattr(self.module, name)
+        if not function.signatures:
+            with locked(self._lock) if self._lock else nullcontext():
+                from numba import typeof
+
+                function.compile(tuple(typeof(argument) for argument in arguments))
+        return function(*arguments)
+
+
+def slots_of(chamber: Chamber) -> dict[str, Law]:
+    """Laws of a chamber by slot."""
+    return {name: getattr(chamber, name, IDLE_LAWS.get(name)) for name in CHAMBER_SLOTS}  # type: ignore[misc]
+
+
+def laws_of(engine: Engine) -> dict[str, dict[str, Law]]:
+    """Laws of an engine by place (left, right, engine) and slot."""
+    return {
+        "left": slots_of(engine.left),
+        "right": slots_of(engine.right),
+        "engine": {name: getattr(engine, name) for name in ENGINE_SLOTS},
+    }
+
+
+def kernel_for(engine: Engine) -> Kernel:
+    """Compiled kernel for the laws of an engine; composed once per choice of laws."""
+    laws = laws_of(engine)
+    classes = tuple(type(law) for place in laws.values() for law in place.values())
+    return _load(classes, INTEGRATOR)
+
+
+def parameters(engine: Engine) -> np.ndarray:
+    """All numbers of an engine's laws as an array of one record."""
+    laws = laws_of(engine)
+    places = [(side, [(name, _record(law)) for name, law in laws[side].items()]) for side in laws]
+    dtype = np.dtype([*places[:2], *places[2][1]])
+    values = [tuple(_values(law) for law in laws[side].values()) for side in ("left", "right")]
+    rest = [_values(law) for law in laws["engine"].values()]
+    return np.array([(*values, *rest)], dtype=dtype)
+
+
+def _record(law: Law) -> np.dtype:
+    names = [item.name for item in dataclasses.fields(law)]  # type: ignore[arg-type]
+    return np.dtype([(name, np.float64) for name in names or ["nothing"]])
+
+
+def _values(law: Law) -> tuple[float, ...]:
+    items = dataclasses.fields(law)  # type: ignore[arg-type]
+    return tuple(float(getattr(law, item.name)) for item in items) or (0.0,)
+
+
+@lru_cache(maxsize=128)
+def _load(classes: tuple[type[Law], ...], modules: tuple[str, ...]) -> Kernel:
+    """Compose, keep and import the kernel for a choice of law classes."""
+    left, right, engine = classes[:5], classes[5:10], classes[10:]
+    try:
+        text = compose(left, right, engine, modules)
+    except NoSource:
+        return _load_from_memory(left, right, engine, modules)
+    folder = usable_folder()
+    if folder is None:
+        return Kernel(_execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None)
+    path = folder / f"saleg_kernel_{_digest(text)}.py"
+    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+        write_atomically(path, text)
+    return Kernel(_execute(text, str(path)), path.with_suffix(".lock"))
+
+
+def compose(
+    left: Sequence[type[Law]],
+    right: Sequence[type[Law]],
+    engine: Sequence[type[Law]],
+    modules: Sequence[str] = INTEGRATOR,
+    injected: dict[str, Any] | None = None,
+) -> str:
+    """Text of the composed module for the law classes of each place, in the order of the slots."""
+    parts = ["import math", "import numba", "import numpy as np", ""]
+    parts += [jit.COMPILED_HEADER + jit.CACHED_ON_DISK]
+    parts += [_own_text(name) for name in BEFORE_SLOTS]
+    for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
+        parts += _chamber_slot(name, base, left[index], right[index], injected)
+    for (name, base), law in zip(ENGINE_SLOTS.items(), engine, strict=True):
+        for method in base.compiled:
+            parts += _methods(law, method, f"engine_{name}", base, injected)
+            arguments = ", ".join(_arguments(base, method))
+            parts.append(
+                f"@inline\ndef {name}_{method}(P, {arguments}):\n"
+                f"    return engine_{name}_{method}(P.{name}, {arguments})\n"
+            )
+    parts += [_own_text(f"kernel/{name}.py") for name in modules]
+    return "\n".join(parts) + "\n"
+
+
+def _chamber_slot(
+    name: str,
+    base: type[Law],
+    left: type[Law],
+    right: type[Law],
+    injected: dict[str, Any] | None,
+) -> list[str]:
+    """Functions of one chamber slot; one set serves both sides where their laws are alike."""
+    parts = []
+    both = left is right
+    for method in base.compiled:
+        arguments = ", ".join(_arguments(base, method))
+        names = ("both", "both") if both else ("left", "right")
+        for place, law in (("both", left),) if both else (("left", left), ("right", right)):
+            parts += _methods(law, method, f"{place}_{name}", base, injected)
+        parts.append(
+            f"@inline\ndef {name}_{method}(P, side, {arguments}):\n"
+            f"    if side == 0:\n"
+            f"        return {names[0]}_{name}_{method}(P.left.{name}, {arguments})\n"
+            f"    return {names[1]}_{name}_{method}(P.right.{name}, {arguments})\n"
+        )
+    return parts
+
+
+def _methods(
+    law: type[Law],
+    method: str,
+    prefix: str,
+    base: type[Law],
+    injected: dict[str, Any] | None,
+) -> list[str]:
+    """Definitions needed for one method of a law."""
+    function = getattr(law, method)
+    owner = f"{law.__name__}.{method}"
+    given = list(inspect.signature(function).parameters)[1:]
+    wanted = _arguments(base, method)
+    if len(given) != len(wanted):
+        raise LawError(f"{owner} must take ({', '.join(['self', *wanted])})")
+    borrowed = Borrowed(f"{prefix}_{method}__", owner)
+    try:
+        borrowed.add_method(law, function, f"{prefix}_{method}")
+    except NoSource:
+        if injected is None:
+            raise
+        injected[f"{prefix}_{method}"] = _jitted(function)
+        return []
+    return borrowed.definitions
+
+
+def _arguments(base: type[Law], method: str) -> list[str]:
+    return list(inspect.signature(getattr(base, method)).parameters)[1:]
+
+
+def _own_text(name: str) -> str:
+    """Text of one of our modules without its docstring and its imports from this package."""
+    text = (PACKAGE / name).read_text(encoding="utf-8")
+    lines = text.splitlines()
+    drop: set[int] = set()
+    for index, node in enumerate(ast.parse(text).body):
+        is_docstring = index == 0 and isinstance(node, ast.Expr)
+        is_ours = isinstance(node, ast.ImportFrom) and (node.module or "").startswith("saleg")
+        if is_docstring or is_ours:
+            drop.update(range(node.lineno - 1, node.end_lineno or node.lineno))
+    kept = [line for number, line in enumerate(lines) if number not in drop]
+    return f"# --- {name}\n" + "\n".join(kept) + "\n"
+
+
+def _digest(text: str) -> str:
+    """Name of a text for this numba and this processor."""
+    import llvmlite.binding
+    import numba
+
+    machine = f"{numba.__version__} {np.__version__} {llvmlite.binding.get_host_cpu_name()}"
+    return hashlib.sha256(f"{machine}\n{text}".encode()).hexdigest()[:24]
+
+
+def _execute(text: str, filename: str, names: dict[str, Any] | None = None) -> types.ModuleType:
+    """Run a module text under the given file name; nothing but this very text is executed."""
+    stem = Path(filename).stem if filename.endswith(".py") else f"saleg_kernel_{id(text):x}"
+    module = types.ModuleType(stem)
+    module.__file__ = filename
+    module.__dict__.update(names or {})
+    sys.modules[stem] = module
+    exec(compile(text, filename, "exec"), module.__dict__)
+    return module
+
+
+def _in_memory(text: str) -> str:
+    return text.replace(jit.CACHED_ON_DISK, jit.CACHED_IN_MEMORY)
+
+
+def _load_from_memory(
+    left: Sequence[type[Law]],
+    right: Sequence[type[Law]],
+    engine: Sequence[type[Law]],
+    modules: Sequence[str],
+) -> Kernel:
+    """Kernel for laws whose source cannot be had: compiled from their bytecode, not kept."""
+    injected: dict[str, Any] = {}
+    text = _in_memory(compose(left, right, engine, modules, injected))
+    return Kernel(_execute(text, f"<saleg kernel {next(_numbers)}>", injected), None)
+
+
+def _jitted(function: Callable[..., Any], seen: dict[int, Any] | None = None) -> Any:
+    """Compile a function without source, and the functions it uses."""
+    import numba
+
+    seen = {} if seen is None else seen
+    if id(function) in seen:
+        return seen[id(function)]
+    names = {
+        name: _jitted(value, seen) if isinstance(value, types.FunctionType) else value
+        for name, value in inspect.getclosurevars(function).globals.items()
+    }
+    copy = types.FunctionType(
+        function.__code__, names, function.__name__, function.__defaults__, function.__closure__
+    )
+    seen[id(function)] = numba.njit(forceinline=True, error_model="numpy", nogil=True)(copy)
+    return seen[id(function)]

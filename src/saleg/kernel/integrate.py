@@ -1,0 +1,186 @@
+"""The integrator: steps, events, restarts.
+
+One loop serves fixed steps on a grid and the adaptive pair. A step that crosses an event is
+shortened to end on it; there modes change and the next step starts afresh.
+"""
+
+import numpy as np
+
+from saleg.kernel.events import first_event, is_sound, land, locate, next_time_event
+from saleg.kernel.jit import cached, compiled, inline
+from saleg.kernel.layout import (
+    BUFFER_FULL,
+    DEAD_CENTRE,
+    END_OF_TIME,
+    HEAD,
+    HEAD_CONTACT,
+    N_ALL,
+    STALLED,
+    STEP_FAILURE,
+    V,
+)
+from saleg.kernel.observe import observe
+from saleg.kernel.peaks import watch_point, watch_step
+from saleg.kernel.rhs import rhs
+from saleg.kernel.step import error_norm, take_step
+from saleg.kernel.switch import switch
+
+
+@inline
+def proposed_end(E, O, t_event):
+    """Time at which the next step should end: grid point or controller's wish, or known event."""
+    wish = (E.grid + 1.0) * O.step if O.adaptive == 0 else E.t + E.next_step
+    if wish >= t_event:
+        return t_event
+    if O.adaptive == 1 and E.t + 2.0 * E.next_step > t_event:
+        return 0.5 * (E.t + t_event)  # two equal steps rather than one and a splinter
+    return wish
+
+
+@compiled
+def control_step(E, order, h, error, was_rejected):
+    """Set the next step from the error of an accepted one (PI control, Hairer and Wanner)."""
+    beta = 0.08
+    exponent = 1.0 / order - 0.75 * beta
+    bounded = max(error, 1e-10)
+    factor = 0.9 * bounded**-exponent * E.last_error**beta
+    factor = min(max(factor, 0.2), 1.0 if was_rejected else 6.0)
+    E.last_error = max(error, 1e-4)
+    E.next_step = h * factor
+
+
+@compiled
+def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
+    """Take one step the error control, or the fixed grid, is content with.
+
+    Returns its length and the time it ends at, exactly; a length of -1.0 if no step is small
+    enough.
+    """
+    t = E.t
+    end = proposed_end(E, O, t_event)
+    h = end - t
+    smallest = 4e-16 * max(t, E.length_scale / E.speed_scale)
+    rejected = False
+    while h > smallest or (h >= 0.0 and not rejected):
+        take_step(P, E, C, tableau, t, h, y, k, y_new, O.motored)
+        E.steps += 1.0
+        if not is_sound(C, y_new):
+            h *= 0.5
+            rejected = True
+            E.rejected += 1.0
+            continue
+        if O.adaptive == 0:
+            return h, t + h if rejected else end
+        error = error_norm(E, tableau, h, y, y_new, k, O.tolerance)
+        if error <= 1.0:
+            wish = E.next_step
+            control_step(E, order, h, error, rejected)
+            if not rejected and h < wish:  # cut short by a known event: keep the wish at least
+                E.next_step = max(E.next_step, wish)
+            return h, t + h if rejected else end
+        E.rejected += 1.0
+        rejected = True
+        h *= max(0.2, 0.9 * error ** (-1.0 / order))
+        E.next_step = h
+    return -1.0, t
+
+
+@compiled
+def advance_to_event(P, E, C, O, tableau, h, y, k, y_new):
+    """Shorten the step just taken to the first event in it; returns its length and the event."""
+    stages = tableau[1].shape[0]
+    landed = -1
+    for _ in range(16):
+        event = first_event(E, C, stages, h, y, y_new, k, landed)
+        if event < 0:
+            break
+        h = locate(P, E, C, tableau, E.t, h, y, k, y_new, event, O.motored)
+        landed = event
+    if landed >= 0:
+        land(C, landed, y_new)
+    return h, landed
+
+
+@compiled
+def keep_snapshot(E1, C, y, snapshot):
+    """Remember the state at a left dead centre; the one before moves to second place."""
+    E_kept, C_kept, y_kept = snapshot
+    E_kept[1] = E_kept[0]
+    E_kept[0] = E1[0]
+    for side in range(2):
+        C_kept[1, side] = C_kept[0, side]
+        C_kept[0, side] = C[side]
+    for n in range(N_ALL):
+        y_kept[1, n] = y_kept[0, n]
+        y_kept[0, n] = y[n]
+
+
+@compiled
+def accept(E, O, h, full, end, y, y_new, k, stages):
+    """Make the end of a step the present state."""
+    E.t = end if h == full else E.t + h
+    if O.adaptive == 0 and E.t >= (E.grid + 1.0) * O.step:
+        E.grid += 1.0
+    for n in range(N_ALL):
+        y[n] = y_new[n]
+        k[0, n] = k[stages, n]
+
+
+@inline
+def has_room(O, strokes, events, history, filled):
+    """Whether one more step can be recorded."""
+    return (
+        strokes.shape[0] - filled[0] >= 1
+        and (O.events == 0 or events.shape[0] - filled[1] >= 12)
+        and (O.history == 0 or history.shape[0] - filled[2] >= 2)
+    )
+
+
+@cached
+def run_on(P1, E1, C, y, peaks, tableau, order, O1, strokes, events, history, filled, snapshot):
+    """Integrate until the end, a buffer is full, or nothing more can be done.
+
+    Returns one of the codes of :mod:`saleg.kernel.layout`. All state is in the arguments, so a
+    call continues where the one before stopped.
+    """
+    P, E, O = P1[0], E1[0], O1[0]
+    stages = tableau[1].shape[0]
+    k = np.zeros((stages + 1, N_ALL))
+    y_new = np.zeros(N_ALL)
+    spare = (np.zeros(N_ALL), np.zeros(N_ALL), np.zeros((stages + 1, N_ALL)), np.zeros(N_ALL))
+    last_step = E.steps + O.max_steps
+    rhs(P, E, C, E.t, y, k[0], O.motored)
+    E.evaluations += 1.0
+    while E.t < O.t_end:
+        if E.steps >= last_step or not has_room(O, strokes, events, history, filled):
+            return BUFFER_FULL
+        t_event = next_time_event(C, O.t_end)
+        full, end = good_step(P, E, C, O, tableau, order, t_event, y, k, y_new)
+        if full < 0.0:
+            return STEP_FAILURE
+        if E.direction == 0.0:
+            E.direction = np.sign(y_new[V])
+        h, landed = advance_to_event(P, E, C, O, tableau, full, y, k, y_new)
+        if O.peaks > 0:
+            watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare)
+        accept(E, O, h, full, end, y, y_new, k, stages)
+        if O.history > 0 and (landed >= 0 or E.steps % O.history < 1.0):
+            observe(P, E, C, y, k[0], O.motored, history[filled[2]])
+            filled[2] += 1
+        if switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
+            rhs(P, E, C, E.t, y, k[0], O.motored)
+            E.evaluations += 1.0
+            watch_point(C, y, k[0], peaks)
+            if O.history > 0:
+                observe(P, E, C, y, k[0], O.motored, history[filled[2]])
+                filled[2] += 1
+        if landed >= HEAD:
+            return HEAD_CONTACT
+        if landed == DEAD_CENTRE:
+            if E.direction > 0.0:
+                keep_snapshot(E1, C, y, snapshot)
+            if E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke:
+                return STALLED
+            if E.strokes >= O.last_stroke:
+                return END_OF_TIME
+    return END_OF_TIME

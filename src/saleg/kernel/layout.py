@@ -1,0 +1,248 @@
+"""Where each number of a run lives: state vector, quadratures, records and codes."""
+
+import numpy as np
+
+# Sides.
+LEFT = 0
+RIGHT = 1
+
+# Modes of a chamber; they belong to the kernel, no law ever sees or sets them.
+OPEN = 0
+CLOSED = 1
+BURNING = 2
+
+# State vector: position, velocity; per side theta = ln p + G0 ln(h/L) (smooth where p is steep),
+# ignition integral, and theta of the motored pressure.
+X = 0
+V = 1
+THETA = 2
+IGNITION = 4
+MOTORED = 6
+N_STATE = 8
+G0 = 1.33
+
+# Quadratures, integrated beside the state and reset at every dead centre.
+ALTERNATOR_WORK = 0
+ELECTRICAL_ENERGY = 1
+ELECTRICAL_SQUARED = 2
+ALTERNATOR_IMPULSE = 3
+FRICTION_WORK = 4
+SPEED_SQUARED = 5
+HEAT_RELEASED = 6
+HEAT_LOST = 8
+GAS_WORK = 10
+PORT_WORK = 12
+N_QUADRATURES = 14
+N_ALL = N_STATE + N_QUADRATURES
+
+# Quantities whose greatest value in a stroke is kept.
+PEAK_PRESSURE = 0
+PEAK_TEMPERATURE = 2
+PEAK_PRESSURE_RISE = 4
+PEAK_VELOCITY = 6
+PEAK_ACCELERATION = 7
+N_PEAKS = 8
+
+# Why the integrator came back.
+BUFFER_FULL = 0
+END_OF_TIME = 1
+STALLED = 2
+HEAD_CONTACT = 3
+STEP_FAILURE = 4
+
+# Events, in the order they are looked for; one per side from PORT on.
+DEAD_CENTRE = 0
+PORT = 1
+LIGHT = 3
+HEAD = 5
+N_EVENTS = 7
+# Kinds in the event table.
+EVENT_DEAD_CENTRE = 0
+EVENT_PORT_CLOSING = 1
+EVENT_PORT_OPENING = 2
+EVENT_IGNITION = 3
+EVENT_END_OF_COMBUSTION = 4
+EVENT_MISFIRE = 5
+EVENT_HEAD_CONTACT = 6
+EVENT_NAMES = (
+    "dead centre",
+    "port closing",
+    "port opening",
+    "ignition",
+    "end of combustion",
+    "misfire",
+    "head contact",
+)
+
+#: State of the engine beside the state vector, with what it needs at every evaluation.
+ENGINE_RECORD = np.dtype(
+    [
+        (name, np.float64)
+        for name in (
+            "mass",
+            "length_scale",
+            "speed_scale",
+            "maximum_stroke",
+            "t",
+            "direction",
+            "mean_piston_speed",
+            "stroke",
+            "load_weight",
+            "friction_held",
+            "x_dead_centre",
+            "t_dead_centre",
+            "last_fuel_energy",
+            "last_speed_squared",
+            "next_step",
+            "last_error",
+            "grid",
+            "strokes",
+            "steps",
+            "rejected",
+            "evaluations",
+        )
+    ]
+)
+
+#: One chamber: geometry and intake, then what stands in it, then what the stroke has seen so far.
+CHAMBER_RECORD = np.dtype(
+    [("mode", np.int64), ("armed", np.int64)]
+    + [
+        (name, np.float64)
+        for name in (
+            "sign",
+            "bore",
+            "area",
+            "half_stroke",
+            "port",
+            "head_gap",
+            "wall_temperature",
+            "intake_pressure",
+            "intake_temperature",
+            "equivalence_ratio_wanted",
+            "lower_heating_value",
+            "air_fuel_ratio",
+            "combustion_efficiency",
+            "gas_constant",
+            "mass",
+            "fuel",
+            "air",
+            "burnt",
+            "equivalence_ratio",
+            "p_closing",
+            "T_closing",
+            "V_closing",
+            "t_ignition",
+            "t_end",
+            "duration",
+            "fuel_to_burn",
+            "fresh_fuel_energy",
+            "exhaust_energy",
+            "exhaust_fuel_energy",
+            "ignition_time",
+            "ignition_height",
+        )
+    ]
+)
+
+#: One row per stroke, written at the dead centre that ends it. Values per side are left, right.
+STROKE_RECORD = np.dtype(
+    [
+        (name, np.float64)
+        for name in (
+            "t",
+            "duration",
+            "x_start",
+            "x_end",
+            "direction",
+            "load_weight",
+            "friction_held",
+            "alternator_work",
+            "electrical_energy",
+            "electrical_squared",
+            "alternator_impulse",
+            "friction_work",
+            "speed_squared",
+            "peak_acceleration",
+            "peak_velocity",
+            "spring_energy",
+        )
+    ]
+    + [
+        (name, np.float64, (2,))
+        for name in (
+            "heat_released",
+            "heat_lost",
+            "gas_work",
+            "port_work",
+            "peak_pressure",
+            "peak_temperature",
+            "peak_pressure_rise",
+            "fresh_fuel_energy",
+            "exhaust_energy",
+            "exhaust_fuel_energy",
+            "fuel_energy",
+            "internal_energy",
+            "charge_mass",
+            "ignition_time",
+            "ignition_height",
+        )
+    ]
+)
+
+#: One row per event.
+EVENT_RECORD = np.dtype(
+    [("t", np.float64), ("kind", np.int64), ("side", np.int64)]
+    + [(name, np.float64) for name in ("x", "v", "p", "T")]
+)
+
+#: One row of the history.
+HISTORY_RECORD = np.dtype(
+    [
+        (name, np.float64)
+        for name in (
+            "t",
+            "x",
+            "v",
+            "a",
+            "p_left",
+            "p_right",
+            "T_left",
+            "T_right",
+            "V_left",
+            "V_right",
+            "p_motored_left",
+            "p_motored_right",
+            "heat_release_left",
+            "heat_release_right",
+            "heat_loss_left",
+            "heat_loss_right",
+            "ignition_left",
+            "ignition_right",
+            "mode_left",
+            "mode_right",
+            "spring_force",
+            "friction_force",
+            "alternator_force",
+            "electrical_power",
+            "load_weight",
+        )
+    ]
+)
+
+#: What the caller asks of the integrator.
+OPTIONS_RECORD = np.dtype(
+    [
+        ("adaptive", np.int64),
+        ("motored", np.int64),
+        ("peaks", np.int64),
+        ("history", np.int64),
+        ("events", np.int64),
+        ("max_steps", np.int64),
+        ("t_end", np.float64),
+        ("step", np.float64),
+        ("tolerance", np.float64),
+        ("stall", np.float64),
+        ("last_stroke", np.float64),
+    ]
+)

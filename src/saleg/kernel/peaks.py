@@ -1,0 +1,134 @@
+"""Greatest values within a stroke, located between the ends of steps.
+
+A quantity whose rate changes from rising to falling within a step has its peak inside it. The
+peak is approached by one further step to where a cubic has its maximum, and read off a second
+cubic between there and the nearer end.
+"""
+
+from math import sqrt
+
+from saleg.kernel.events import cubic, pressure_and_temperature
+from saleg.kernel.jit import compiled, inline
+from saleg.kernel.layout import (
+    G0,
+    N_PEAKS,
+    N_STATE,
+    OPEN,
+    PEAK_ACCELERATION,
+    PEAK_PRESSURE_RISE,
+    PEAK_TEMPERATURE,
+    PEAK_VELOCITY,
+    THETA,
+    V,
+    X,
+)
+from saleg.kernel.rhs import height_of, rhs
+from saleg.kernel.step import take_step
+
+
+@inline
+def pressure_rate(C, side, y, dy):
+    """Relative rate of the pressure [1/s]."""
+    c = C[side]
+    if c.mode == OPEN:
+        return 0.0
+    return dy[THETA + side] - G0 * c.sign * y[V] / height_of(C, side, y[X])
+
+
+@inline
+def watched(C, peak, y, dy):
+    """Value of a watched quantity."""
+    if peak == PEAK_ACCELERATION:
+        return abs(dy[V])
+    if peak == PEAK_VELOCITY:
+        return abs(y[V])
+    side = peak % 2
+    p, T = pressure_and_temperature(C, side, y)
+    if peak >= PEAK_PRESSURE_RISE:
+        return p * pressure_rate(C, side, y, dy)
+    return T if peak >= PEAK_TEMPERATURE else p
+
+
+@compiled
+def watched_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
+    """Time derivative of a watched quantity.
+
+    Exact where the state gives it; for acceleration and pressure rise, whose derivative would need
+    that of every law, by a difference along the solution.
+    """
+    if peak == PEAK_VELOCITY:
+        return dy[V] if y[V] > 0.0 else -dy[V]
+    if peak < PEAK_PRESSURE_RISE:
+        side = peak % 2
+        if C[side].mode == OPEN:
+            return 0.0
+        p, T = pressure_and_temperature(C, side, y)
+        rate = pressure_rate(C, side, y, dy)
+        if peak < PEAK_TEMPERATURE:
+            return p * rate
+        return T * (rate + C[side].sign * y[V] / height_of(C, side, y[X]))
+    dt = 1e-6 * E.length_scale / E.speed_scale
+    for n in range(N_STATE):
+        spare_y[n] = y[n] + dt * dy[n]
+    rhs(P, E, C, t + dt, spare_y, spare_dy, motored)
+    E.evaluations += 1
+    return (watched(C, peak, spare_y, spare_dy) - watched(C, peak, y, dy)) / dt
+
+
+@inline
+def top_of_cubic(q0, r0, q1, r1, h):
+    """Where a cubic that rises at 0 and falls at `h` is greatest."""
+    slope = (q1 - q0) / h
+    a = 3.0 * (r0 + r1 - 2.0 * slope)
+    b = 2.0 * (3.0 * slope - 2.0 * r0 - r1)
+    root = sqrt(max(b * b - 4.0 * a * r0, 0.0))
+    # Roots of a u^2 + b u + r0; the falling one, in a form that does not cancel.
+    u = 2.0 * r0 / (root - b) if b <= 0.0 else -(b + root) / (2.0 * a)
+    return h * min(max(u, 0.0), 1.0)
+
+
+@compiled
+def watch_point(C, y, dy, peaks):
+    """Take the present values into account."""
+    for peak in range(N_PEAKS):
+        peaks[peak] = max(peaks[peak], watched(C, peak, y, dy))
+
+
+@compiled
+def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
+    """Take a step from `y` to `y_new` into account, peaks within it included.
+
+    Those of acceleration and pressure rise only if the options ask for all (`peaks` = 2): they
+    cost further evaluations.
+    """
+    t, motored = E.t, O.motored
+    stages = tableau[1].shape[0]
+    spare_y, spare_dy, spare_k, inner = spare
+    for peak in range(N_PEAKS):
+        q0 = watched(C, peak, y, k[0])
+        q1 = watched(C, peak, y_new, k[stages])
+        promising = max(q0, q1) >= 0.9 * peaks[peak]
+        peaks[peak] = max(peaks[peak], q1)
+        costly = peak == PEAK_ACCELERATION or PEAK_PRESSURE_RISE <= peak < PEAK_VELOCITY
+        if not promising or h <= 0.0 or (costly and O.peaks < 2):
+            continue
+        r0 = watched_rate(P, E, C, peak, t, y, k[0], spare_y, spare_dy, motored)
+        if r0 <= 0.0:
+            continue
+        r1 = watched_rate(P, E, C, peak, t + h, y_new, k[stages], spare_y, spare_dy, motored)
+        if r1 >= 0.0:
+            continue
+        s = top_of_cubic(q0, r0, q1, r1, h)
+        spare_k[0] = k[0]
+        take_step(P, E, C, tableau, t, s, y, spare_k, inner, motored)
+        q = watched(C, peak, inner, spare_k[stages])
+        r = watched_rate(
+            P, E, C, peak, t + s, inner, spare_k[stages], spare_y, spare_dy, motored
+        )
+        peaks[peak] = max(peaks[peak], q)
+        if r > 0.0 and s < h:
+            rest = top_of_cubic(q, r, q1, r1, h - s)
+            peaks[peak] = max(peaks[peak], cubic(q, r, q1, r1, h - s, rest))
+        elif r < 0.0 and s > 0.0:
+            rest = top_of_cubic(q0, r0, q, r, s)
+            peaks[peak] = max(peaks[peak], cubic(q0, r0, q, r, s, rest))

@@ -1,0 +1,98 @@
+"""The slots as the kernel calls them, in plain Python: `P` is the engine itself.
+
+In a composed module this file is replaced by the compiled laws and `P` is a record of their
+numbers; the names and arguments are the same.
+"""
+
+from typing import Any
+
+from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+
+
+def _chamber(P: Any, side: int) -> Any:
+    return P.left if side == 0 else P.right
+
+
+def gas_properties_gamma(P: Any, side: int, T: float) -> float:
+    """Ratio of specific heats."""
+    return _chamber(P, side).gas_properties.gamma(T)
+
+
+def gas_properties_internal_energy(P: Any, side: int, T: float) -> float:
+    """Specific internal energy."""
+    return _chamber(P, side).gas_properties.internal_energy(T)
+
+
+def heat_transfer_coefficient(P: Any, side: int, gas: Gas, charge: Charge) -> float:
+    """Heat-transfer coefficient."""
+    return _chamber(P, side).heat_transfer.coefficient(gas, charge)
+
+
+def heat_release_duration(P: Any, side: int, gas: Gas, charge: Charge) -> float:
+    """Combustion duration."""
+    return _chamber(P, side).heat_release.duration(gas, charge)
+
+
+def heat_release_burn_rate(P: Any, side: int, u: float) -> float:
+    """Burn rate."""
+    return _chamber(P, side).heat_release.burn_rate(u)
+
+
+def heat_release_burnt_fraction(P: Any, side: int, u: float) -> float:
+    """Burnt fraction."""
+    return _chamber(P, side).heat_release.burnt_fraction(u)
+
+
+def ignition_rate(P: Any, side: int, gas: Gas, charge: Charge) -> float:
+    """Rate of the ignition integral."""
+    return _chamber(P, side).ignition.rate(gas, charge)
+
+
+def gas_exchange_charge(
+    P: Any,
+    side: int,
+    mass: float,
+    fuel: float,
+    air: float,
+    burnt: float,
+    equivalence_ratio: float,
+    air_fuel_ratio: float,
+) -> tuple[float, float, float, float]:
+    """Composition of the charge at port closing."""
+    law = _chamber(P, side).gas_exchange
+    return law.charge(mass, fuel, air, burnt, equivalence_ratio, air_fuel_ratio)
+
+
+def springs_force(P: Any, motion: Motion) -> float:
+    """Force of the springs."""
+    return P.springs.force(motion)
+
+
+def springs_energy(P: Any, motion: Motion) -> float:
+    """Energy in the springs."""
+    return P.springs.energy(motion)
+
+
+def friction_at_dead_centre(P: Any, held: float, stroke: Stroke) -> float:
+    """Number held by the friction law."""
+    return P.friction.at_dead_centre(held, stroke)
+
+
+def friction_force(P: Any, held: float, motion: Motion) -> float:
+    """Friction force."""
+    return P.friction.force(held, motion)
+
+
+def alternator_at_dead_centre(P: Any, held: float, stroke: Stroke) -> float:
+    """Load weight."""
+    return P.alternator.at_dead_centre(held, stroke)
+
+
+def alternator_force(P: Any, held: float, motion: Motion) -> float:
+    """Alternator force."""
+    return P.alternator.force(held, motion)
+
+
+def alternator_electrical_power(P: Any, held: float, motion: Motion) -> float:
+    """Electrical power."""
+    return P.alternator.electrical_power(held, motion)

@@ -1,0 +1,192 @@
+"""The source of a law's method, made ready to stand in a composed module.
+
+A method may use its own numbers (``self.a``), its arguments, module-level numbers and functions,
+``math`` and ``np``. Everything it uses is found, checked and carried along under a name that
+belongs to its slot alone.
+"""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import dataclasses
+import inspect
+import math
+import numbers
+import textwrap
+import types
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from saleg.errors import LawError
+from saleg.laws.base import Law
+
+ALLOWED_BUILTINS = frozenset(
+    {"abs", "bool", "float", "int", "len", "max", "min", "pow", "range", "round"}
+)
+
+
+class NoSource(Exception):
+    """The text of a method cannot be had (it was typed into a plain interpreter)."""
+
+
+class Borrowed:
+    """Collects the definitions a composed module needs for the methods of its laws.
+
+    Parameters
+    ----------
+    prefix : str
+        Put before every carried name.
+    owner : str
+        How errors call the method, for instance ``"MyLaw.force"``.
+    """
+
+    def __init__(self, prefix: str, owner: str):
+        self.prefix = prefix
+        self.owner = owner
+        self.definitions: list[str] = []
+        self._names: dict[int, str] = {}
+
+    def add_method(self, law: type[Law], method: Callable[..., Any], name: str) -> None:
+        """Add a method of a law as a function `name` whose first argument is the law's record."""
+        tree = _parse(method)
+        _check_self(law, tree, self.owner)
+        self._emit(tree, method, name)
+
+    def _emit(self, tree: ast.FunctionDef, function: Callable[..., Any], name: str) -> None:
+        renames = {
+            used: self._resolve(used, value)
+            for used, value in _globals_used(tree, function, self.owner).items()
+        }
+        tree = _Renamer(renames).visit(tree)
+        tree.name = name
+        tree.returns = None
+        tree.decorator_list = []
+        for argument in (*tree.args.posonlyargs, *tree.args.args, *tree.args.kwonlyargs):
+            argument.annotation = None
+        ast.fix_missing_locations(tree)
+        self.definitions.append("@inline\n" + ast.unparse(tree))
+
+    def _resolve(self, name: str, value: Any) -> ast.expr:
+        """Expression that stands for a global the method uses."""
+        known = _library_name(name, value)
+        if known is not None:
+            return ast.parse(known, mode="eval").body
+        value = getattr(value, "py_func", value)  # a function somebody has jitted already
+        if isinstance(value, types.FunctionType):
+            if id(value) not in self._names:
+                self._names[id(value)] = f"{self.prefix}{value.__name__}"
+                self._emit(_parse(value), value, self._names[id(value)])
+            return ast.Name(self._names[id(value)], ast.Load())
+        literal = _literal(value)
+        if literal is None:
+            raise LawError(
+                f"{self.owner} uses '{name}', a {type(value).__name__}; a law may use only "
+                "numbers, tuples of numbers, module-level functions, math and np"
+            )
+        carried = f"{self.prefix}{name}"
+        if f"{carried} = {literal}" not in self.definitions:
+            self.definitions.append(f"{carried} = {literal}")
+        return ast.Name(carried, ast.Load())
+
+
+class _Renamer(ast.NodeTransformer):
+    def __init__(self, renames: dict[str, ast.expr]):
+        self.renames = renames
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        return self.renames.get(node.id, node)
+
+
+def _parse(function: Callable[..., Any]) -> ast.FunctionDef:
+    try:
+        text = textwrap.dedent(inspect.getsource(function))
+    except (OSError, TypeError) as error:
+        raise NoSource(str(error)) from None
+    tree = ast.parse(text).body[0]
+    if not isinstance(tree, ast.FunctionDef):
+        raise LawError(f"{function.__qualname__} must be written with 'def'")
+    return tree
+
+
+def _check_self(law: type[Law], tree: ast.FunctionDef, owner: str) -> None:
+    """A law's record holds its numbers only: refuse anything else asked of ``self``."""
+    fields = {item.name for item in dataclasses.fields(law)}  # type: ignore[arg-type]
+    own = tree.args.args[0].arg
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)):
+            continue
+        if node.value.id == own and node.attr not in fields:
+            what = "calls its method" if callable(getattr(law, node.attr, None)) else "uses"
+            raise LawError(
+                f"{owner} {what} '{own}.{node.attr}'; compiled, a law has only its own numbers "
+                f"({', '.join(sorted(fields)) or 'none'}): use a module-level function"
+            )
+
+
+def _globals_used(
+    tree: ast.FunctionDef, function: Callable[..., Any], owner: str
+) -> dict[str, Any]:
+    """Names a function takes from outside itself, with their values."""
+    local = set(function.__code__.co_varnames) | set(function.__code__.co_cellvars)
+    closure = inspect.getclosurevars(function)
+    used = {}
+    for node in _body_nodes(tree):
+        if not isinstance(node, ast.Name) or node.id in local:
+            continue
+        if node.id in closure.nonlocals:
+            used[node.id] = closure.nonlocals[node.id]
+        elif node.id in function.__globals__:
+            used[node.id] = function.__globals__[node.id]
+        elif hasattr(builtins, node.id):
+            if node.id not in ALLOWED_BUILTINS:
+                raise LawError(f"{owner} uses the built-in '{node.id}', which a law may not")
+        else:
+            raise LawError(f"{owner} uses '{node.id}', which is not defined")
+    return used
+
+
+def _body_nodes(tree: ast.FunctionDef) -> list[ast.AST]:
+    """All nodes of a function but its annotations and decorators."""
+    roots = [*tree.body, *tree.args.defaults, *tree.args.kw_defaults]
+    found = []
+    for root in roots:
+        if root is not None:
+            found += [
+                node
+                for node in ast.walk(root)
+                if not (isinstance(node, ast.AnnAssign) and node.value is None)
+            ]
+    return found
+
+
+def _library_name(name: str, value: Any) -> str | None:
+    """``math`` and ``np``, or a function or constant of theirs, under its canonical name."""
+    if value is math or value is np:
+        return "math" if value is math else "np"
+    if getattr(math, name, None) is value and callable(value):
+        return f"math.{name}"
+    if getattr(np, name, None) is value and callable(value):
+        return f"np.{name}"
+    return None
+
+
+def _literal(value: Any) -> str | None:
+    """A number or tuple of numbers as source text."""
+    if isinstance(value, tuple):
+        items = [_literal(item) for item in value]
+        if not items or any(item is None for item in items):
+            return None
+        return "(" + ", ".join(str(item) for item in items) + ",)"
+    if isinstance(value, (bool, np.bool_)):
+        return repr(bool(value))
+    if isinstance(value, numbers.Integral):
+        return repr(int(value))
+    if isinstance(value, numbers.Real):
+        number = float(value)
+        if math.isfinite(number):
+            return repr(number)
+        return "math.nan" if math.isnan(number) else f"{'-' if number < 0 else ''}math.inf"
+    return None

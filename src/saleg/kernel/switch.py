@@ -1,0 +1,302 @@
+"""What happens at an event: modes change, charges are composed, regulators act."""
+
+from math import isfinite, log
+
+from saleg.kernel.events import pressure_and_temperature
+from saleg.kernel.jit import compiled, inline
+from saleg.kernel.layout import (
+    ALTERNATOR_IMPULSE,
+    ALTERNATOR_WORK,
+    BURNING,
+    CLOSED,
+    DEAD_CENTRE,
+    ELECTRICAL_ENERGY,
+    ELECTRICAL_SQUARED,
+    EVENT_DEAD_CENTRE,
+    EVENT_END_OF_COMBUSTION,
+    EVENT_HEAD_CONTACT,
+    EVENT_IGNITION,
+    EVENT_MISFIRE,
+    EVENT_PORT_CLOSING,
+    EVENT_PORT_OPENING,
+    FRICTION_WORK,
+    G0,
+    GAS_WORK,
+    HEAD,
+    HEAT_LOST,
+    HEAT_RELEASED,
+    IGNITION,
+    LEFT,
+    MOTORED,
+    N_ALL,
+    N_PEAKS,
+    N_STATE,
+    OPEN,
+    PEAK_ACCELERATION,
+    PEAK_PRESSURE,
+    PEAK_PRESSURE_RISE,
+    PEAK_TEMPERATURE,
+    PEAK_VELOCITY,
+    PORT_WORK,
+    RIGHT,
+    SPEED_SQUARED,
+    THETA,
+    V,
+    X,
+)
+from saleg.kernel.rhs import charge_of, gas_of, height_of
+from saleg.kernel.slots import (
+    alternator_at_dead_centre,
+    friction_at_dead_centre,
+    gas_exchange_charge,
+    gas_properties_internal_energy,
+    heat_release_burnt_fraction,
+    heat_release_duration,
+    springs_energy,
+)
+from saleg.laws.arguments import Motion, Stroke
+
+
+@compiled
+def record_event(E, C, O, y, kind, side, events, filled):
+    """Append a row to the event table."""
+    if not O.events:
+        return
+    row = events[filled[1]]
+    filled[1] += 1
+    row.t = E.t
+    row.kind = kind
+    row.side = side
+    row.x = y[X]
+    row.v = y[V]
+    row.p, row.T = pressure_and_temperature(C, max(side, 0), y)
+
+
+@inline
+def burnt_mass(P, C, side, t):
+    """Fuel burnt since the start of combustion [kg]."""
+    c = C[side]
+    u = min(max((t - c.t_ignition) / c.duration, 0.0), 1.0)
+    return c.fuel_to_burn * heat_release_burnt_fraction(P, side, u)
+
+
+@compiled
+def internal_energy(P, C, side, y):
+    """Internal energy of the charge [J]; while the ports are open that of the fresh one."""
+    c = C[side]
+    T = c.T_closing
+    if c.mode != OPEN:
+        _, T = pressure_and_temperature(C, side, y)
+    return c.mass * gas_properties_internal_energy(P, side, T)
+
+
+@compiled
+def ignite(P, E, C, side, y, motored):
+    """Start of combustion: the charge burns as far as fuel and air allow (Eq. 53)."""
+    c = C[side]
+    theta = y[THETA + side]
+    gas = gas_of(E, C, side, y[X], theta, y[MOTORED + side] if motored else theta)
+    c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side))
+    c.mode = BURNING
+    c.armed = 0
+    c.t_ignition = E.t
+    c.t_end = E.t + c.duration
+    c.fuel_to_burn = c.combustion_efficiency * min(c.fuel, c.air / c.air_fuel_ratio)
+    c.ignition_time = E.t
+    c.ignition_height = gas.height
+
+
+@compiled
+def end_combustion(P, E, C, side):
+    """Turn what has burnt from fuel and air into burnt gas."""
+    c = C[side]
+    fuel = burnt_mass(P, C, side, E.t)
+    c.fuel -= fuel
+    c.air -= c.air_fuel_ratio * fuel
+    c.burnt += (1.0 + c.air_fuel_ratio) * fuel
+    c.mode = CLOSED
+
+
+@compiled
+def open_ports(P, E, C, side, y):
+    """Blow down: pressure and temperature become those of the intake."""
+    if C[side].mode == BURNING:
+        end_combustion(P, E, C, side)
+    before = internal_energy(P, C, side, y)
+    c = C[side]
+    c.mode = OPEN
+    c.armed = 0
+    c.T_closing = c.intake_temperature
+    y[IGNITION + side] = 0.0
+    c.exhaust_energy += before - internal_energy(P, C, side, y)
+
+
+@compiled
+def close_ports(P, E, C, side, y):
+    """Compose the fresh charge and begin to compress it."""
+    before = internal_energy(P, C, side, y)
+    c = C[side]
+    height = height_of(C, side, y[X])
+    volume = c.area * height
+    T = c.intake_temperature
+    mass = c.intake_pressure * volume / (c.gas_constant * T)
+    fuel, air, burnt, fresh = gas_exchange_charge(
+        P, side, mass, c.fuel, c.air, c.burnt, c.equivalence_ratio_wanted, c.air_fuel_ratio
+    )
+    c.fresh_fuel_energy += fresh * c.lower_heating_value
+    c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
+    c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
+    c.equivalence_ratio = fuel * c.air_fuel_ratio / max(air, 1e-300)
+    c.p_closing, c.T_closing, c.V_closing = c.intake_pressure, T, volume
+    c.mode = CLOSED
+    c.armed = 1 if fuel > 0.0 else 0
+    y[IGNITION + side] = 0.0
+    y[THETA + side] = log(c.intake_pressure) + G0 * log(height / c.half_stroke)
+    y[MOTORED + side] = y[THETA + side]
+    c.exhaust_energy += before - internal_energy(P, C, side, y)
+
+
+@compiled
+def write_stroke(P, E, C, y, peaks, row):
+    """Fill the row of the stroke that ends here."""
+    row.t = E.t
+    row.duration = E.t - E.t_dead_centre
+    row.x_start, row.x_end = E.x_dead_centre, y[X]
+    row.direction = E.direction
+    row.load_weight, row.friction_held = E.load_weight, E.friction_held
+    row.alternator_work = y[N_STATE + ALTERNATOR_WORK]
+    row.electrical_energy = y[N_STATE + ELECTRICAL_ENERGY]
+    row.electrical_squared = y[N_STATE + ELECTRICAL_SQUARED]
+    row.alternator_impulse = y[N_STATE + ALTERNATOR_IMPULSE]
+    row.friction_work = y[N_STATE + FRICTION_WORK]
+    row.speed_squared = y[N_STATE + SPEED_SQUARED]
+    row.peak_acceleration = peaks[PEAK_ACCELERATION]
+    row.peak_velocity = peaks[PEAK_VELOCITY]
+    row.spring_energy = springs_energy(P, Motion(E.t, y[X], y[V], E.direction))
+    for side in range(2):
+        c = C[side]
+        row.heat_released[side] = y[N_STATE + HEAT_RELEASED + side]
+        row.heat_lost[side] = y[N_STATE + HEAT_LOST + side]
+        row.gas_work[side] = y[N_STATE + GAS_WORK + side]
+        row.port_work[side] = y[N_STATE + PORT_WORK + side]
+        row.peak_pressure[side] = peaks[PEAK_PRESSURE + side]
+        row.peak_temperature[side] = peaks[PEAK_TEMPERATURE + side]
+        row.peak_pressure_rise[side] = peaks[PEAK_PRESSURE_RISE + side]
+        row.fresh_fuel_energy[side] = c.fresh_fuel_energy
+        row.exhaust_energy[side] = c.exhaust_energy
+        row.exhaust_fuel_energy[side] = c.exhaust_fuel_energy
+        row.ignition_time[side] = c.ignition_time
+        row.ignition_height[side] = c.ignition_height
+        row.charge_mass[side] = c.mass
+        row.internal_energy[side] = internal_energy(P, C, side, y)
+        burnt = burnt_mass(P, C, side, E.t) if c.mode == BURNING else 0.0
+        row.fuel_energy[side] = (c.fuel - burnt) * c.lower_heating_value
+
+
+@compiled
+def begin_stroke(E, C, y, peaks):
+    """Clear what is counted per stroke."""
+    for n in range(N_STATE, N_ALL):
+        y[n] = 0.0
+    for peak in range(N_PEAKS):
+        peaks[peak] = 0.0
+    for side in range(2):
+        C[side].fresh_fuel_energy = 0.0
+        C[side].exhaust_energy = 0.0
+        C[side].exhaust_fuel_energy = 0.0
+        C[side].ignition_time = -1.0
+        C[side].ignition_height = 0.0
+    E.x_dead_centre = y[X]
+    E.t_dead_centre = E.t
+
+
+@compiled
+def regulate(P, E, C, y):
+    """Hand the finished stroke to the laws that act at a dead centre."""
+    fuel = C[LEFT].fresh_fuel_energy + C[RIGHT].fresh_fuel_energy
+    squared = y[N_STATE + SPEED_SQUARED]
+    length = abs(y[X] - E.x_dead_centre)
+    duration = E.t - E.t_dead_centre
+    stroke = Stroke(
+        length,
+        duration,
+        E.maximum_stroke,
+        0.5 * E.maximum_stroke,
+        0.5 * (C[LEFT].area + C[RIGHT].area),
+        fuel + E.last_fuel_energy,
+        squared + E.last_speed_squared,
+    )
+    E.last_fuel_energy = fuel
+    E.last_speed_squared = squared
+    E.stroke = length
+    E.mean_piston_speed = length / duration
+    E.load_weight = alternator_at_dead_centre(P, E.load_weight, stroke)
+    E.friction_held = friction_at_dead_centre(P, E.friction_held, stroke)
+
+
+@compiled
+def turn(P, E, C, O, y, peaks, strokes, events, filled):
+    """Dead centre: close the books of the stroke, let the regulators act, turn around."""
+    if isfinite(E.x_dead_centre) and E.t > E.t_dead_centre:
+        write_stroke(P, E, C, y, peaks, strokes[filled[0]])
+        filled[0] += 1
+        regulate(P, E, C, y)
+        E.strokes += 1.0
+    E.direction = -E.direction
+    record_event(E, C, O, y, EVENT_DEAD_CENTRE, LEFT if E.direction > 0.0 else RIGHT, events, filled)
+    for side in range(2):
+        c = C[side]
+        if c.armed == 1 and c.sign * E.direction > 0.0:
+            c.armed = 0
+            y[IGNITION + side] = 0.0
+            record_event(E, C, O, y, EVENT_MISFIRE, side, events, filled)
+    begin_stroke(E, C, y, peaks)
+
+
+@compiled
+def ports_due(E, C, side, y):
+    """Whether a chamber stands at its ports, about to pass them."""
+    c = C[side]
+    beyond = height_of(C, side, y[X]) - c.port
+    slack = 1e-14 * E.length_scale
+    outward = c.sign * E.direction
+    if c.mode == OPEN:
+        return outward < 0.0 and beyond <= slack
+    return outward > 0.0 and beyond >= -slack
+
+
+@compiled
+def switch_chambers(P, E, C, O, y, events, filled):
+    """Let every chamber change its mode that is due; returns how many did."""
+    changed = 0
+    for side in range(2):
+        c = C[side]
+        if c.mode == BURNING and E.t >= c.t_end:
+            end_combustion(P, E, C, side)
+            record_event(E, C, O, y, EVENT_END_OF_COMBUSTION, side, events, filled)
+            changed += 1
+        if c.mode == CLOSED and c.armed == 1 and y[IGNITION + side] >= 1.0:
+            ignite(P, E, C, side, y, O.motored)
+            record_event(E, C, O, y, EVENT_IGNITION, side, events, filled)
+            changed += 1
+        if ports_due(E, C, side, y):
+            changed += 1
+            if c.mode == OPEN:
+                close_ports(P, E, C, side, y)
+                record_event(E, C, O, y, EVENT_PORT_CLOSING, side, events, filled)
+            else:
+                record_event(E, C, O, y, EVENT_PORT_OPENING, side, events, filled)
+                open_ports(P, E, C, side, y)
+    return changed
+
+
+@compiled
+def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
+    """Do all that is due at the present instant; returns whether anything was."""
+    changed = switch_chambers(P, E, C, O, y, events, filled)
+    if landed == DEAD_CENTRE:
+        turn(P, E, C, O, y, peaks, strokes, events, filled)
+        changed += 1 + switch_chambers(P, E, C, O, y, events, filled)
+    if landed >= HEAD:
+        record_event(E, C, O, y, EVENT_HEAD_CONTACT, (landed - 1) % 2, events, filled)
+    return changed > 0

@@ -1,0 +1,124 @@
+"""Reading and changing an engine by dotted paths."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from saleg.engine import Engine
+from saleg.errors import UnknownPath
+
+#: Names people use, and where they lead. Below the line: within a chamber.
+ENGINE_ALIASES = {
+    "moving_mass": "translator.mass",
+    "spring": "springs",
+}
+CHAMBER_ALIASES = {
+    "egr": "gas_exchange.egr",
+}
+
+
+def get(engine: Engine, path: str) -> Any:
+    """Value at a dotted path; of a mirrored engine's cylinder, the left one's.
+
+    Raises
+    ------
+    UnknownPath
+        With the nearest existing names.
+    """
+    value: Any = engine
+    targets = _targets(engine, path)
+    if len({repr(_walk(engine, target)) for target in targets}) > 1:
+        raise UnknownPath(f"'{path}' differs between left and right: ask for 'left.{path}'")
+    for name in targets[0]:
+        value = getattr(value, name)
+    return value
+
+
+def replace(engine: Engine, changes: Mapping[str, Any]) -> Engine:
+    """Copy of an engine with the values at some dotted paths replaced."""
+    # Whole parts first, so that a law and one of its numbers can be changed in one call.
+    for path in sorted(changes, key=lambda path: path.count(".")):
+        for target in _targets(engine, path):
+            engine = _set(engine, target, changes[path])
+    return engine
+
+
+def known_paths(engine: Engine) -> list[str]:
+    """Every path of an engine that leads to a number or a law, aliases first."""
+    return list(dict.fromkeys(_all_paths(engine)))
+
+
+def _targets(engine: Engine, path: str) -> list[tuple[str, ...]]:
+    """Attribute chains a path stands for: one, or two for a path of both chambers."""
+    if not isinstance(path, str):
+        raise UnknownPath(f"a path is text such as 'intake.pressure', not {path!r}")
+    first, _, rest = path.partition(".")
+    if first in ("left", "right"):
+        candidates = [(first, *_expand(rest, CHAMBER_ALIASES))] if rest else [(first,)]
+    elif first in {item.name for item in dataclasses.fields(engine)} | set(ENGINE_ALIASES):
+        candidates = [_expand(path, ENGINE_ALIASES)]
+    else:
+        chain = _expand(path, CHAMBER_ALIASES)
+        candidates = [("left", *chain), ("right", *chain)]
+    found = [chain for chain in candidates if _exists(engine, chain)]
+    if not found:
+        raise UnknownPath(_suggestion(engine, path))
+    return found
+
+
+def _expand(path: str, aliases: Mapping[str, str]) -> tuple[str, ...]:
+    first, dot, rest = path.partition(".")
+    return tuple((aliases.get(first, first) + dot + rest).split("."))
+
+
+def _exists(node: Any, chain: tuple[str, ...]) -> bool:
+    for name in chain:
+        if not dataclasses.is_dataclass(node):
+            return False
+        if name not in {item.name for item in dataclasses.fields(node)}:
+            return False
+        node = getattr(node, name)
+    return True
+
+
+def _walk(node: Any, chain: tuple[str, ...]) -> Any:
+    for name in chain:
+        node = getattr(node, name)
+    return node
+
+
+def _set(node: Any, chain: tuple[str, ...], value: Any) -> Any:
+    if not chain:
+        return value
+    changed = _set(getattr(node, chain[0]), chain[1:], value)
+    return dataclasses.replace(node, **{chain[0]: changed})
+
+
+def _suggestion(engine: Engine, path: str) -> str:
+    near = difflib.get_close_matches(path, known_paths(engine), n=3, cutoff=0.5)
+    hint = f"; did you mean {' or '.join(repr(name) for name in near)}?" if near else ""
+    return f"no '{path}' in this engine{hint}"
+
+
+def _all_paths(engine: Engine) -> Iterator[str]:
+    chambers = list(_below(engine.left)) + list(_below(engine.right))
+    yield "moving_mass"
+    yield from (f"spring.{name}" for name in _below(engine.springs))
+    for alias, target in CHAMBER_ALIASES.items():
+        if target in chambers:
+            yield alias
+    yield from chambers
+    yield from (path for path in _below(engine) if not path.startswith(("left", "right")))
+    yield from (path for path in _below(engine) if path.startswith(("left", "right")))
+
+
+def _below(node: Any) -> Iterator[str]:
+    """Names of the fields of a dataclass and, dotted, of all below them."""
+    for item in dataclasses.fields(node):
+        yield item.name
+        value = getattr(node, item.name)
+        if dataclasses.is_dataclass(value):
+            yield from (f"{item.name}.{name}" for name in _below(value))

@@ -1,0 +1,130 @@
+"""From an engine to the numbers a run begins with."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.kernel import layout
+from saleg.kernel.rhs import rhs
+from saleg.kernel.switch import ignite
+from saleg.laws.arguments import Motion, Stroke
+from saleg.start import Contents
+
+if TYPE_CHECKING:
+    from saleg.engine import Chamber, Engine
+
+
+@dataclass
+class State:
+    """Everything that changes during a run.
+
+    Attributes
+    ----------
+    engine, chambers : ndarray
+        Records of :mod:`saleg.kernel.layout`, shapes (1,) and (2,).
+    y : ndarray, shape (N_ALL,)
+        State vector and quadratures.
+    peaks : ndarray, shape (N_PEAKS,)
+        Greatest values of the present stroke.
+    """
+
+    engine: Any
+    chambers: Any
+    y: np.ndarray
+    peaks: np.ndarray
+
+
+def prepare(engine: Engine) -> State:
+    """State of an engine at the beginning of a run, as its start law has it."""
+    start = engine.start.initial(engine)
+    E = np.zeros(1, layout.ENGINE_RECORD).view(np.recarray)
+    C = np.zeros(2, layout.CHAMBER_RECORD).view(np.recarray)
+    y = np.zeros(layout.N_ALL)
+    y[layout.X], y[layout.V] = start.x, start.v
+    for side, held in enumerate((start.left, start.right)):
+        _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
+        _fill_contents(C[side], held, y, side)
+    _fill_engine(E[0], engine, start, C)
+    for side, held in enumerate((start.left, start.right)):
+        if held.burning:
+            ignite(engine, E[0], C, side, y, 0)
+    dy = np.zeros(layout.N_ALL)
+    rhs(engine, E[0], C, 0.0, y, dy, 0)
+    E[0].direction = np.sign(y[layout.V]) or np.sign(dy[layout.V])
+    return State(E.view(np.ndarray), C.view(np.ndarray), y, np.zeros(layout.N_PEAKS))
+
+
+def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
+    length = 0.5 * engine.maximum_stroke
+    E.mass = engine.translator.mass
+    E.length_scale = length
+    E.speed_scale = length * math.sqrt(_stiffness(engine, length) / E.mass)
+    E.maximum_stroke = engine.maximum_stroke
+    E.stroke = start.stroke
+    E.mean_piston_speed = start.mean_piston_speed
+    E.x_dead_centre = start.x if start.at_dead_centre else math.nan
+    E.next_step = 1e-3 * length / E.speed_scale
+    E.last_error = 1e-4
+    moving = start.mean_piston_speed > 0.0
+    guess = Stroke(
+        length=start.stroke,
+        duration=start.stroke / start.mean_piston_speed if moving else math.inf,
+        maximum=engine.maximum_stroke,
+        half_maximum=length,
+        piston_area=0.5 * float(C.area.sum()),
+        fuel_energy=0.0,
+        speed_squared=0.0,
+    )
+    E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
+    E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
+
+
+def _stiffness(engine: Engine, length: float) -> float:
+    """Stiffness around the midpoint [N/m], springs and gas, for scales only."""
+    dx = 0.01 * length
+    ahead, behind = (engine.springs.force(Motion(0.0, x, 0.0, 0.0)) for x in (dx, -dx))
+    total = max(-(ahead - behind) / (2.0 * dx), 0.0)
+    for chamber in engine.chambers:
+        pressure = chamber.intake.pressure if hasattr(chamber, "intake") else chamber.pressure  # type: ignore[attr-defined]
+        total += 1.35 * pressure * math.pi * chamber.bore**2 / 4.0 / chamber.half_stroke
+    return float(total)
+
+
+def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
+    c.sign = sign
+    c.bore = chamber.bore
+    c.area = math.pi * chamber.bore**2 / 4.0
+    c.half_stroke = chamber.half_stroke
+    c.wall_temperature = chamber.wall_temperature
+    c.head_gap = chamber.head_gap
+    c.gas_constant = chamber.gas_properties.gas_constant  # type: ignore[attr-defined]
+    c.ignition_time = -1.0
+    if hasattr(chamber, "intake"):
+        c.port = chamber.port_closing  # type: ignore[attr-defined]
+        c.intake_pressure = chamber.intake.pressure
+        c.intake_temperature = chamber.intake.temperature
+        c.equivalence_ratio_wanted = chamber.equivalence_ratio  # type: ignore[attr-defined]
+        c.lower_heating_value = chamber.fuel.lower_heating_value  # type: ignore[attr-defined]
+        c.air_fuel_ratio = chamber.fuel.air_fuel_ratio  # type: ignore[attr-defined]
+        c.combustion_efficiency = chamber.combustion_efficiency  # type: ignore[attr-defined]
+    else:
+        c.port = math.inf
+        c.intake_pressure = chamber.pressure  # type: ignore[attr-defined]
+        c.intake_temperature = chamber.temperature  # type: ignore[attr-defined]
+        c.air_fuel_ratio = 1.0
+    full = c.port if math.isfinite(c.port) else c.half_stroke
+    c.p_closing, c.T_closing, c.V_closing = c.intake_pressure, c.intake_temperature, c.area * full
+
+
+def _fill_contents(c: Any, held: Contents, y: np.ndarray, side: int) -> None:
+    c.mode = layout.OPEN if held.is_open else layout.CLOSED
+    c.armed = int(held.armed and held.fuel > 0.0)
+    c.mass, c.fuel, c.air, c.burnt = held.mass, held.fuel, held.air, held.burnt
+    c.equivalence_ratio = held.fuel * c.air_fuel_ratio / max(held.air, 1e-300)
+    height = c.half_stroke + c.sign * y[layout.X]
+    theta = math.log(held.pressure) + layout.G0 * math.log(height / c.half_stroke)
+    y[layout.THETA + side] = y[layout.MOTORED + side] = theta

@@ -1,0 +1,128 @@
+"""Physical quantities as dataclass fields: a unit and an allowed range beside every number."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any, NamedTuple
+
+
+def quantity(
+    unit: str,
+    *,
+    default: Any = dataclasses.MISSING,
+    low: float = -math.inf,
+    high: float = math.inf,
+    open_low: bool = False,
+    open_high: bool = False,
+) -> Any:
+    """Declare a dataclass field that holds one number with a unit and an allowed range.
+
+    Parameters
+    ----------
+    unit : str
+        SI unit as people write it, ``"-"`` for a pure number.
+    default : float, optional
+        Default value; the field is required without one.
+    low, high : float
+        Allowed range.
+    open_low, open_high : bool
+        Whether the end itself is excluded.
+
+    Returns
+    -------
+    dataclasses.Field
+        To be used as the right-hand side of an annotated class attribute.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True)
+    ... class Rod:
+    ...     length: float = quantity("m", low=0, open_low=True)
+    >>> problems(Rod(-1.0), "rod")[0].path
+    'rod.length'
+    """
+    limits = Limits(unit, float(low), float(high), open_low, open_high)
+    return dataclasses.field(default=default, metadata={"limits": limits})
+
+
+class Limits(NamedTuple):
+    """Unit and allowed range of one quantity."""
+
+    unit: str
+    low: float
+    high: float
+    open_low: bool
+    open_high: bool
+
+    def __str__(self) -> str:
+        if math.isinf(self.low) and math.isinf(self.high):
+            return "any finite number"
+        above = f"{'>' if self.open_low else '>='} {self.low:g}"
+        below = f"{'<' if self.open_high else '<='} {self.high:g}"
+        return " and ".join(
+            text for text, end in ((above, self.low), (below, self.high)) if not math.isinf(end)
+        )
+
+    def admits(self, value: float) -> bool:
+        """Whether a finite number lies in the range."""
+        over = value > self.low or (value == self.low and not self.open_low)
+        under = value < self.high or (value == self.high and not self.open_high)
+        return over and under
+
+
+class Problem(NamedTuple):
+    """One wrong field: where, what stands there, and what may."""
+
+    path: str
+    value: Any
+    unit: str
+    allowed: str
+
+    def __str__(self) -> str:
+        unit = "" if self.unit in ("", "-") else f" [{self.unit}]"
+        shown = repr(self.value)
+        return f"{self.path} = {shown if len(shown) < 60 else shown[:57] + '...'}{unit}: {self.allowed}"
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value is a plain real number (a bool is not)."""
+    if isinstance(value, bool) or isinstance(value, (str, bytes)):
+        return False
+    try:
+        float(value)
+    except (TypeError, ValueError, OverflowError):
+        return False
+    return getattr(value, "ndim", 0) == 0
+
+
+def problems(node: Any, path: str = "") -> list[Problem]:
+    """List every field of a dataclass tree that is not a number within its allowed range.
+
+    Parameters
+    ----------
+    node : dataclass instance
+        Root of the tree; fields declared with :func:`quantity` are checked, dataclasses are
+        descended into.
+    path : str
+        Dotted path of the root, put before every field name.
+
+    Returns
+    -------
+    list of Problem
+        Empty when everything is well.
+    """
+    found: list[Problem] = []
+    for field in dataclasses.fields(node):
+        value = getattr(node, field.name)
+        where = f"{path}.{field.name}" if path else field.name
+        limits = field.metadata.get("limits")
+        if limits is not None:
+            if not is_number(value):
+                found.append(Problem(where, value, limits.unit, "must be a number"))
+            elif not math.isfinite(value) or not limits.admits(float(value)):
+                found.append(Problem(where, value, limits.unit, f"must be {limits}"))
+        elif dataclasses.is_dataclass(value) and not isinstance(value, type):
+            found.extend(problems(value, where))
+    return found

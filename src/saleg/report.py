@@ -1,0 +1,42 @@
+"""Results as text: bar, mm and percent, for people."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from saleg.performance import Performance
+
+if TYPE_CHECKING:
+    from saleg.results import Run
+
+#: Figure, label, factor from SI, unit, digits.
+FIGURES = (
+    ("stroke", "stroke", 1e3, "mm", 2),
+    ("compression_ratio", "compression ratio", 1.0, "-", 3),
+    ("frequency", "frequency", 1.0, "Hz", 3),
+    ("power", "mean electrical power", 1e-3, "kW", 3),
+    ("rms_power", "RMS electrical power", 1e-3, "kW", 3),
+    ("efficiency", "efficiency", 1e2, "%", 2),
+    ("mean_alternator_force", "mean alternator force", 1.0, "N", 1),
+    ("peak_pressure", "peak pressure", 1e-5, "bar", 2),
+    ("peak_acceleration", "peak acceleration", 1e-3, "km/s^2", 3),
+    ("peak_velocity", "peak velocity", 1.0, "m/s", 3),
+    ("fuel_energy_per_cycle", "fuel energy per cycle", 1.0, "J", 1),
+    ("charge_mass", "charge mass", 1e3, "g", 4),
+    ("moving_mass", "moving mass", 1.0, "kg", 3),
+)
+
+
+def describe_performance(performance: Performance) -> str:
+    """Performance as an aligned table."""
+    lines = []
+    for name, label, factor, unit, digits in FIGURES:
+        value = getattr(performance, name) * factor
+        lines.append(f"  {label:<22} {value:>10.{digits}f} {'' if unit == '-' else unit}".rstrip())
+    return "\n".join(lines)
+
+
+def describe_run(run: Run) -> str:
+    """Run as a short report."""
+    head = f"{run.engine.name}: {run.status} - {run.message}"
+    return f"{head}\n{describe_performance(run.performance)}"

@@ -1,0 +1,118 @@
+"""Results of a run. They only read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.kernel.layout import EVENT_NAMES
+from saleg.performance import EnergyBalance, Performance
+from saleg.status import Status
+from saleg.tables import cycle_table, event_table, history_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass
+class Run:
+    """A simulated stretch of time.
+
+    Attributes
+    ----------
+    engine : Engine
+        The engine that ran.
+    status : Status
+        How the run ended.
+    message : str
+        What happened, when, and what to try.
+    duration : float
+        Time simulated [s].
+    strokes : ndarray
+        One record per stroke (see :mod:`saleg.kernel.layout`).
+    evaluations, steps : int
+        Right-hand sides evaluated and steps taken, events included.
+    settings : dict
+        How the run was integrated.
+    """
+
+    engine: Engine
+    status: Status
+    message: str
+    duration: float
+    strokes: np.ndarray
+    event_rows: np.ndarray = field(repr=False)
+    history_rows: np.ndarray | None = field(repr=False)
+    evaluations: int = 0
+    steps: int = 0
+    settings: dict[str, Any] = field(default_factory=dict)
+    replay: Callable[[], Run] | None = field(default=None, repr=False)
+
+    @property
+    def fired(self) -> bool:
+        """Whether the last cycle released heat in at least one chamber."""
+        last = self.last_cycle_strokes
+        return last is not None and float(last["heat_released"].sum()) > 0.0
+
+    @property
+    def last_cycle_strokes(self) -> np.ndarray | None:
+        """Records of the last full cycle, left dead centre to left dead centre; None without one."""
+        start = last_cycle_start(self.strokes)
+        return None if start is None else self.strokes[start : start + 2]
+
+    @cached_property
+    def cycles(self) -> pd.DataFrame:
+        """One row per cycle, left dead centre to left dead centre; units in ``.attrs``."""
+        return cycle_table(self.engine, self.strokes)
+
+    @cached_property
+    def events(self) -> pd.DataFrame:
+        """One row per event: time [s], kind, side, position [m], velocity, pressure, temperature."""
+        return event_table(self.event_rows, EVENT_NAMES)
+
+    @cached_property
+    def history(self) -> pd.DataFrame | None:
+        """One row per recorded step, two at an event (before and after); None if not asked for."""
+        return None if self.history_rows is None else history_table(self.history_rows)
+
+    @cached_property
+    def orbit(self) -> Run | None:
+        """The last full cycle again, with its whole history and every peak located; None without one."""
+        return self.replay() if self.replay is not None else None
+
+    @cached_property
+    def performance(self) -> Performance:
+        """Figures of the last full cycle; zeros and NaN for a run that stalled."""
+        if self.status in (Status.STALLED, Status.INVALID):
+            return Performance.of_nothing(self.engine)
+        best = self.orbit or self
+        strokes = best.last_cycle_strokes
+        if strokes is None:
+            return Performance.of_nothing(self.engine)
+        return Performance.of_cycle(self.engine, strokes)
+
+    @cached_property
+    def energy(self) -> EnergyBalance | None:
+        """Energy balance of the last full cycle; None if there are not three strokes to take it from."""
+        start = last_cycle_start(self.strokes)
+        if start is None or start == 0:
+            return None
+        return EnergyBalance.between(self.strokes[start - 1], self.strokes[start : start + 2])
+
+    def __str__(self) -> str:
+        from saleg.report import describe_run
+
+        return describe_run(self)
+
+
+def last_cycle_start(strokes: np.ndarray) -> int | None:
+    """Index of the first of the two strokes of the last full cycle."""
+    for start in range(len(strokes) - 2, max(len(strokes) - 4, -1), -1):
+        if strokes["direction"][start] > 0.0 and strokes["direction"][start + 1] < 0.0:
+            return start
+    return None

@@ -1,0 +1,325 @@
+"""Simulation of an engine over a stretch of time."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.errors import SalegError
+from saleg.kernel import layout, tableaus
+from saleg.kernel.compose import Kernel, kernel_for, parameters
+from saleg.prepare import State, prepare
+from saleg.quantities import is_number
+from saleg.results import Run
+from saleg.verdict import verdict
+
+#: Steps between two looks at the progress bar and the keyboard.
+STEPS_PER_CALL = 200_000
+DEFAULT_TOLERANCE = 1e-8
+DEFAULT_STEP = 5e-6
+
+
+class SettingsError(SalegError, ValueError):
+    """A setting of :func:`simulate` that makes no sense."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How a run is integrated and what is kept of it; see :func:`simulate`."""
+
+    duration: float
+    adaptive: bool = True
+    order: int = 4
+    step: float = DEFAULT_STEP
+    rtol: float = DEFAULT_TOLERANCE
+    history: int = 0
+    motored_pressure: bool = False
+    stall_stroke: float = 0.01
+    keep_cycles: int | None = None
+    peaks: int = 1
+    last_stroke: float = math.inf
+
+
+def simulate(
+    engine: Engine,
+    duration: float,
+    *,
+    method: str = "adaptive",
+    order: int = 4,
+    step: float | None = None,
+    rtol: float = DEFAULT_TOLERANCE,
+    history: int | None = None,
+    motored_pressure: bool = False,
+    stall_stroke: float = 0.01,
+    keep_cycles: int | None = None,
+) -> Run:
+    """Simulate an engine for some time from its start.
+
+    Parameters
+    ----------
+    engine : Engine
+    duration : float
+        Time to simulate [s].
+    method : {"adaptive", "fixed"}
+        Adaptive Dormand-Prince 5(4) pair, or a fixed step on a grid. Both end steps exactly on
+        events.
+    order : {1, 2, 3, 4, 5, 8}
+        Order of the fixed-step method.
+    step : float, optional
+        Fixed step [s]; 5 microseconds unless given. Giving one asks for ``method="fixed"``.
+    rtol : float
+        Tolerance of the adaptive method, relative to stroke, natural speed and pressure.
+    history : int, optional
+        Keep every n-th step in :attr:`Run.history`, events always; nothing unless given.
+    motored_pressure : bool
+        Integrate the motored pressure as well.
+    stall_stroke : float
+        End the run as stalled when a stroke is shorter than this share of the maximum stroke;
+        0 never does.
+    keep_cycles : int, optional
+        Keep the records of only about the last so many cycles; all unless given.
+
+    Returns
+    -------
+    Run
+        Always with a status and a message.
+
+    Raises
+    ------
+    InvalidEngine
+        Naming every wrong field of the engine.
+    SettingsError
+        If a setting makes no sense.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> run = saleg.simulate(saleg.machines.thesis_base(), 0.5)
+    >>> round(run.performance.frequency, 1)
+    47.0
+    """
+    settings = _settings(
+        duration, method, order, step, rtol, history, motored_pressure, stall_stroke, keep_cycles
+    )
+    engine.validate()
+    return integrate(engine, prepare(engine), settings)
+
+
+def _settings(
+    duration: float,
+    method: str,
+    order: int,
+    step: float | None,
+    rtol: float,
+    history: int | None,
+    motored_pressure: bool,
+    stall_stroke: float,
+    keep_cycles: int | None,
+) -> Settings:
+    """Check the arguments of :func:`simulate`; all that is wrong is named together."""
+    wrong = []
+    if method not in ("adaptive", "fixed"):
+        wrong.append(f"method = {method!r}: must be 'adaptive' or 'fixed'")
+    if order not in tableaus.FIXED_STEP:
+        orders = ", ".join(str(number) for number in tableaus.FIXED_STEP)
+        wrong.append(f"order = {order!r}: must be one of {orders}")
+    for name, value, low, high in (
+        ("duration", duration, 0.0, math.inf),
+        ("step", DEFAULT_STEP if step is None else step, 0.0, 1.0),
+        ("rtol", rtol, 0.0, 0.1),
+    ):
+        if not is_number(value) or not low < value < high:
+            wrong.append(f"{name} = {value!r}: must be a number > {low:g} and < {high:g}")
+    if not is_number(stall_stroke) or not 0.0 <= stall_stroke < 1.0:
+        wrong.append(f"stall_stroke = {stall_stroke!r}: must be a number >= 0 and < 1")
+    for name, count in (("history", history), ("keep_cycles", keep_cycles)):
+        if count is not None and not (isinstance(count, (int, np.integer)) and count >= 1):
+            wrong.append(f"{name} = {count!r}: must be a whole number >= 1, or None")
+    if wrong:
+        raise SettingsError("cannot simulate:\n" + "\n".join(f"  {text}" for text in wrong))
+    return Settings(
+        duration=float(duration),
+        adaptive=method == "adaptive" and step is None,
+        order=int(order),
+        step=DEFAULT_STEP if step is None else float(step),
+        rtol=max(float(rtol), 1e-14),
+        history=int(history or 0),
+        motored_pressure=bool(motored_pressure),
+        stall_stroke=float(stall_stroke),
+        keep_cycles=keep_cycles,
+    )
+
+
+class Records:
+    """Rows of a run, taken over from the kernel's buffers as they fill."""
+
+    def __init__(self, settings: Settings):
+        keep = settings.keep_cycles
+        few = None if keep is None else 2 * keep + 4
+        rows = 512 if few is None else max(few, 16)
+        self.strokes = np.zeros(rows, layout.STROKE_RECORD)
+        self.events = np.zeros(10 * rows, layout.EVENT_RECORD)
+        self.history = np.zeros(20_000 if settings.history else 0, layout.HISTORY_RECORD)
+        self.filled = np.zeros(3, dtype=np.int64)
+        chunks = None if few is None else 2
+        self._kept: tuple[deque[np.ndarray], ...] = (
+            deque(maxlen=chunks),
+            deque(maxlen=chunks),
+            deque(),
+        )
+        self._few = (few, None if few is None else 10 * few, None)
+
+    def empty_buffers(self) -> None:
+        """Move what the kernel has written out of its buffers."""
+        for index, buffer in enumerate((self.strokes, self.events, self.history)):
+            if self.filled[index]:
+                self._kept[index].append(buffer[: self.filled[index]].copy())
+            self.filled[index] = 0
+
+    def rows(self, index: int) -> np.ndarray:
+        """All rows kept: 0 strokes, 1 events, 2 history."""
+        buffer = (self.strokes, self.events, self.history)[index]
+        kept = list(self._kept[index])
+        joined = np.concatenate(kept) if kept else buffer[:0].copy()
+        few = self._few[index]
+        return joined if few is None else joined[-few:]
+
+
+def integrate(engine: Engine, state: State, settings: Settings) -> Run:
+    """Integrate from a state; the engine is taken to be valid."""
+    kernel = kernel_for(engine)
+    P = parameters(engine)
+    options = _options(settings, float(state.engine["t"][0]) + settings.duration)
+    records = Records(settings)
+    snapshot = _snapshot(state)
+    code = _drive(kernel, P, state, settings, options, records, snapshot)
+    strokes = records.rows(0)
+    status, message = verdict(engine, code, state, strokes)
+    return Run(
+        engine=engine,
+        status=status,
+        message=message,
+        duration=float(state.engine["t"][0]),
+        strokes=strokes,
+        event_rows=records.rows(1),
+        history_rows=records.rows(2) if settings.history else None,
+        evaluations=int(state.engine["evaluations"][0]),
+        steps=int(state.engine["steps"][0]),
+        settings=_described(settings),
+        replay=_replay(engine, snapshot, settings),
+    )
+
+
+def _drive(
+    kernel: Kernel,
+    P: np.ndarray,
+    state: State,
+    settings: Settings,
+    options: np.ndarray,
+    records: Records,
+    snapshot: tuple[np.ndarray, ...],
+) -> int:
+    """Call the kernel until it is done; returns why it stopped."""
+    method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
+    order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
+    with _progress(settings.duration) as bar:
+        while True:
+            before = float(state.engine["t"][0])
+            code = kernel.call(
+                "run_on",
+                P,
+                state.engine,
+                state.chambers,
+                state.y,
+                state.peaks,
+                tuple(method),
+                order,
+                options,
+                records.strokes,
+                records.events,
+                records.history,
+                records.filled,
+                snapshot,
+            )
+            records.empty_buffers()
+            if bar is not None:
+                bar.update(float(state.engine["t"][0]) - before)
+            if code != layout.BUFFER_FULL:
+                return int(code)
+
+
+def _options(settings: Settings, t_end: float) -> np.ndarray:
+    options = np.zeros(1, layout.OPTIONS_RECORD)
+    options["adaptive"] = settings.adaptive
+    options["motored"] = settings.motored_pressure
+    options["peaks"] = settings.peaks
+    options["history"] = settings.history
+    options["events"] = 1
+    options["max_steps"] = STEPS_PER_CALL
+    options["t_end"] = t_end
+    options["step"] = settings.step
+    options["tolerance"] = settings.rtol
+    options["last_stroke"] = settings.last_stroke
+    options["stall"] = settings.stall_stroke
+    return options
+
+
+def _snapshot(state: State) -> tuple[np.ndarray, ...]:
+    """Room for the states at the last two left dead centres; the start may be one."""
+    kept = (
+        np.zeros(2, layout.ENGINE_RECORD),
+        np.zeros((2, 2), layout.CHAMBER_RECORD),
+        np.zeros((2, layout.N_ALL)),
+    )
+    E = state.engine[0]
+    if math.isfinite(E["x_dead_centre"]) and E["direction"] > 0.0:
+        kept[0][0], kept[1][0], kept[2][0] = E, state.chambers, state.y
+    return kept
+
+
+def _replay(
+    engine: Engine, snapshot: tuple[np.ndarray, ...], settings: Settings
+) -> Callable[[], Run] | None:
+    """Function that simulates the last full cycle again with everything recorded, or None."""
+    if snapshot[0]["mass"][1] == 0.0 or settings.last_stroke < math.inf:
+        return None
+
+    def replay() -> Run:
+        E, C, y = (part[1].copy() for part in snapshot)
+        state = State(E.reshape(1), C, y, np.zeros(layout.N_PEAKS))
+        period = float(snapshot[0]["t"][0] - snapshot[0]["t"][1])
+        last = float(E["strokes"]) + 2.0
+        asked = replace(
+            settings, duration=1.5 * period, last_stroke=last, history=1, peaks=2, keep_cycles=None
+        )
+        return integrate(engine, state, asked)
+
+    return replay
+
+
+def _described(settings: Settings) -> dict[str, Any]:
+    """What people want to know of how a run was integrated."""
+    if settings.adaptive:
+        return {"method": "adaptive", "rtol": settings.rtol}
+    return {"method": "fixed", "order": settings.order, "step": settings.step}
+
+
+@contextmanager
+def _progress(duration: float) -> Iterator[Any]:
+    """Progress bar for runs longer than a second of waiting, on a terminal only."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from tqdm import tqdm
+
+    form = "{l_bar}{bar}| {n:.3g}/{total:.3g} s simulated [{elapsed}<{remaining}]"
+    with tqdm(total=duration, delay=1, leave=False, bar_format=form) as bar:
+        yield bar

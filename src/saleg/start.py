@@ -1,0 +1,221 @@
+"""How a run begins.
+
+A start is a law too, though one that runs once, in Python: given an engine it says where the
+translator is, how fast, and what stands in each chamber.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from saleg.laws.arguments import Motion
+from saleg.quantities import quantity
+
+if TYPE_CHECKING:
+    from saleg.engine import Chamber, Engine
+
+#: Exponent with which a start guesses the state of a charge compressed from port closing.
+COMPRESSION_EXPONENT = 1.35
+
+
+class Contents(NamedTuple):
+    """What a chamber holds at the start.
+
+    Attributes
+    ----------
+    is_open : bool
+        Whether its ports are open.
+    burning : bool
+        Whether heat release begins now.
+    armed : bool
+        Whether its charge may ignite in this stroke.
+    pressure : float
+        Pressure [Pa].
+    mass, fuel, air, burnt : float
+        Masses [kg].
+    """
+
+    is_open: bool
+    burning: bool
+    armed: bool
+    pressure: float
+    mass: float
+    fuel: float
+    air: float
+    burnt: float
+
+
+class Initial(NamedTuple):
+    """State of an engine at the start.
+
+    Attributes
+    ----------
+    x, v : float
+        Position [m] and velocity [m/s].
+    at_dead_centre : bool
+        Whether the start counts as a dead centre, so that the first stroke is a whole one.
+    stroke : float
+        Guess of the stroke just passed [m].
+    mean_piston_speed : float
+        Guess of its mean piston speed [m/s].
+    left, right : Contents
+    """
+
+    x: float
+    v: float
+    at_dead_centre: bool
+    stroke: float
+    mean_piston_speed: float
+    left: Contents
+    right: Contents
+
+
+class Start:
+    """Base of all starts."""
+
+    def initial(self, engine: Engine) -> Initial:
+        """State of the engine at time zero."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class CompressedCharge(Start):
+    """At rest near a head, with a compressed charge there, burning or not.
+
+    The charge in the left chamber (in the right one if only that is a cylinder) stands at
+    ``p_in (d_po/d)^1.35``.
+
+    Parameters
+    ----------
+    position : float
+        Distance from the midpoint as a share of the half stroke [-].
+    burning : float
+        1 to light the charge at time zero, 0 to leave it unlit.
+    """
+
+    position: float = quantity("-", default=0.9, low=0, high=1, open_low=True, open_high=True)
+    burning: float = quantity("-", default=1.0, low=0, high=1)
+
+    def initial(self, engine: Engine) -> Initial:
+        """State of the engine at time zero."""
+        on_left = _is_cylinder(engine.left) or not _is_cylinder(engine.right)
+        charged = engine.left if on_left else engine.right
+        length = charged.half_stroke
+        x = (-1.0 if on_left else 1.0) * min(self.position * length, length - 2 * charged.head_gap)
+        lit = bool(self.burning) and _is_cylinder(charged)
+        left = contents(engine.left, x, burning=lit and on_left)
+        right = contents(engine.right, -x, burning=lit and not on_left)
+        energy = _stored_energy(engine, charged, x, left if on_left else right, lit)
+        speed = 0.75 * math.sqrt(2.0 * energy / engine.translator.mass)
+        return Initial(x, 0.0, True, 2.0 * abs(x), speed, left, right)
+
+
+@dataclass(frozen=True)
+class MidpointVelocity(Start):
+    """Passing the midpoint to the right, both charges where compression would have them.
+
+    The velocity is ``factor pi f S``, that of a harmonic motion times a factor.
+
+    Parameters
+    ----------
+    frequency : float
+        Frequency f the engine is expected to run at [Hz].
+    stroke : float
+        Stroke S as a share of the maximum stroke [-].
+    factor : float
+        Peak velocity over that of a harmonic motion [-].
+    """
+
+    frequency: float = quantity("Hz", default=45.0, low=0, open_low=True)
+    stroke: float = quantity("-", default=0.9, low=0, high=1, open_low=True)
+    factor: float = quantity("-", default=1.15, low=0, open_low=True)
+
+    def initial(self, engine: Engine) -> Initial:
+        """State of the engine at time zero."""
+        stroke = self.stroke * engine.maximum_stroke
+        v = self.factor * math.pi * self.frequency * stroke
+        left = contents(engine.left, 0.0)._replace(armed=False)
+        right = contents(engine.right, 0.0)
+        return Initial(0.0, v, False, stroke, 2.0 * stroke * self.frequency, left, right)
+
+
+@dataclass(frozen=True)
+class AtRest(Start):
+    """At rest at the midpoint, both cylinders closed and filled at the intake's state (Ch. 5).
+
+    There is no fuel in them: nothing is metered before the ports have opened once.
+    """
+
+    def initial(self, engine: Engine) -> Initial:
+        """State of the engine at time zero."""
+        return Initial(0.0, 0.0, True, 0.0, 0.0, _resting(engine.left), _resting(engine.right))
+
+
+def contents(chamber: Any, displacement: float, burning: bool = False) -> Contents:
+    """What a chamber holds when its piston is `displacement` [m] away from the midpoint position."""
+    height = chamber.half_stroke + displacement
+    if not _is_cylinder(chamber):
+        squeeze = chamber.half_stroke / height
+        pressure = chamber.pressure * squeeze**COMPRESSION_EXPONENT
+        return Contents(False, False, False, pressure, _bounce_mass(chamber), 0.0, 0.0, 0.0)
+    mass, fuel, air, burnt = standard_charge(chamber)
+    is_open = height >= chamber.port_closing
+    squeeze = 1.0 if is_open else chamber.port_closing / height
+    pressure = chamber.intake.pressure * squeeze**COMPRESSION_EXPONENT
+    armed = not is_open and not burning
+    return Contents(is_open, burning, armed, pressure, mass, fuel, air, burnt)
+
+
+def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
+    """Mass, fuel, air and burnt gas [kg] of the charge of a cylinder that runs steadily."""
+    mass = charge_mass(cylinder)
+    ratio, phi = cylinder.fuel.air_fuel_ratio, cylinder.equivalence_ratio
+    if phi <= 0.0:
+        return mass, 0.0, mass, 0.0
+    egr = getattr(cylinder.gas_exchange, "egr", 0.0)
+    burning = cylinder.combustion_efficiency * cylinder.heat_release.burnt_fraction(1.0)
+    burnt_per_fuel = (1.0 + ratio) * burning * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
+    fuel = mass / (1.0 + ratio / phi + burnt_per_fuel)
+    return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
+
+
+def charge_mass(cylinder: Any) -> float:
+    """Mass of the charge at port closing [kg]: ``p_in A d_po / (R T_in)``."""
+    area = math.pi * cylinder.bore**2 / 4.0
+    density = cylinder.intake.pressure / (
+        cylinder.gas_properties.gas_constant * cylinder.intake.temperature
+    )
+    return float(density * area * cylinder.port_closing)
+
+
+def _bounce_mass(chamber: Any) -> float:
+    area = math.pi * chamber.bore**2 / 4.0
+    heat = chamber.gas_properties.gas_constant * chamber.temperature
+    return float(chamber.pressure * area * chamber.half_stroke / heat)
+
+
+def _resting(chamber: Any) -> Contents:
+    """A closed chamber at the intake's state, without fuel."""
+    if not _is_cylinder(chamber):
+        return contents(chamber, 0.0)
+    mass = charge_mass(chamber) * chamber.half_stroke / chamber.port_closing
+    return Contents(False, False, False, chamber.intake.pressure, mass, 0.0, mass, 0.0)
+
+
+def _stored_energy(engine: Engine, charged: Chamber, x: float, held: Contents, lit: bool) -> float:
+    """Energy about to drive the translator [J], for a guess of its speed."""
+    springs = engine.springs.energy(Motion(0.0, x, 0.0, 0.0))
+    springs -= engine.springs.energy(Motion(0.0, 0.0, 0.0, 0.0))
+    height = charged.half_stroke - abs(x)
+    volume = math.pi * charged.bore**2 / 4.0 * height
+    full = getattr(charged, "port_closing", charged.half_stroke)
+    n = COMPRESSION_EXPONENT - 1.0
+    gas = held.pressure * volume / n * max(1.0 - (height / full) ** n, 0.0)
+    heat = held.fuel * charged.fuel.lower_heating_value if lit else 0.0  # type: ignore[attr-defined]
+    return max(springs + gas + 0.4 * heat, 1e-12)
+
+
+def _is_cylinder(chamber: Any) -> bool:
+    return hasattr(chamber, "port_closing")

@@ -1,0 +1,150 @@
+"""Records of a run as data frames; SI units in ``frame.attrs["units"]``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from saleg.engine import Engine
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+CYCLE_UNITS = {
+    "t": "s",
+    "period": "s",
+    "frequency": "Hz",
+    "stroke": "m",
+    "x_left": "m",
+    "x_right": "m",
+    "compression_ratio": "-",
+    "power": "W",
+    "efficiency": "-",
+    "load_weight": "-",
+    "friction_coefficient": "N s/m",
+    "peak_pressure_left": "Pa",
+    "peak_pressure_right": "Pa",
+    "peak_temperature_left": "K",
+    "peak_temperature_right": "K",
+    "peak_velocity": "m/s",
+    "fuel_energy": "J",
+    "heat_released": "J",
+    "heat_transfer": "J",
+    "exhaust_energy": "J",
+    "friction_work": "J",
+    "alternator_work": "J",
+    "electrical_energy": "J",
+}
+
+EVENT_UNITS = {
+    "t": "s",
+    "event": "-",
+    "side": "-",
+    "x": "m",
+    "v": "m/s",
+    "pressure": "Pa",
+    "temperature": "K",
+}
+
+HISTORY_UNITS = {
+    "t": "s",
+    "x": "m",
+    "v": "m/s",
+    "a": "m/s^2",
+    "p": "Pa",
+    "T": "K",
+    "V": "m^3",
+    "p_motored": "Pa",
+    "heat_release": "W",
+    "heat_loss": "W",
+    "ignition": "-",
+    "mode": "-",
+    "spring_force": "N",
+    "friction_force": "N",
+    "alternator_force": "N",
+    "electrical_power": "W",
+    "load_weight": "-",
+}
+
+
+def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
+    """One row per full cycle, left dead centre to left dead centre."""
+    import pandas as pd
+
+    starts = np.flatnonzero((strokes["direction"][:-1] > 0.0) & (strokes["direction"][1:] < 0.0))
+    out, back = strokes[starts], strokes[starts + 1]
+    period = out["duration"] + back["duration"]
+    electrical = out["electrical_energy"] + back["electrical_energy"]
+    fuel = out["fresh_fuel_energy"].sum(axis=1) + back["fresh_fuel_energy"].sum(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        efficiency = np.where(fuel > 0.0, electrical / fuel, np.nan)
+    columns = {
+        "t": out["t"] - out["duration"],
+        "period": period,
+        "frequency": 1.0 / period,
+        "stroke": 0.5 * (np.abs(out["x_end"] - out["x_start"]) + np.abs(back["x_end"] - back["x_start"])),
+        "x_left": back["x_end"],
+        "x_right": out["x_end"],
+        "compression_ratio": _compression_ratios(engine, out, back),
+        "power": electrical / period,
+        "efficiency": efficiency,
+        "load_weight": back["load_weight"],
+        "friction_coefficient": back["friction_held"],
+        "peak_pressure_left": np.maximum(out["peak_pressure"][:, 0], back["peak_pressure"][:, 0]),
+        "peak_pressure_right": np.maximum(out["peak_pressure"][:, 1], back["peak_pressure"][:, 1]),
+        "peak_temperature_left": np.maximum(
+            out["peak_temperature"][:, 0], back["peak_temperature"][:, 0]
+        ),
+        "peak_temperature_right": np.maximum(
+            out["peak_temperature"][:, 1], back["peak_temperature"][:, 1]
+        ),
+        "peak_velocity": np.maximum(out["peak_velocity"], back["peak_velocity"]),
+        "fuel_energy": fuel,
+        "heat_released": (out["heat_released"] + back["heat_released"]).sum(axis=1),
+        "heat_transfer": (out["heat_lost"] + back["heat_lost"]).sum(axis=1),
+        "exhaust_energy": (out["exhaust_energy"] + back["exhaust_energy"]).sum(axis=1),
+        "friction_work": out["friction_work"] + back["friction_work"],
+        "alternator_work": out["alternator_work"] + back["alternator_work"],
+        "electrical_energy": electrical,
+    }
+    frame = pd.DataFrame(columns)
+    frame.index.name = "cycle"
+    frame.attrs["units"] = dict(CYCLE_UNITS)
+    return frame
+
+
+def _compression_ratios(engine: Engine, out: np.ndarray, back: np.ndarray) -> np.ndarray:
+    from saleg.performance import compression_ratio
+
+    pairs = zip(out, back, strict=True)
+    return np.array([compression_ratio(engine, np.array(pair, out.dtype)) for pair in pairs])
+
+
+def event_table(rows: np.ndarray, names: tuple[str, ...]) -> pd.DataFrame:
+    """One row per event."""
+    import pandas as pd
+
+    frame = pd.DataFrame(
+        {
+            "t": rows["t"],
+            "event": pd.Categorical.from_codes(rows["kind"], categories=list(names)),
+            "side": pd.Categorical.from_codes(rows["side"], categories=["left", "right"]),
+            "x": rows["x"],
+            "v": rows["v"],
+            "pressure": rows["p"],
+            "temperature": rows["T"],
+        }
+    )
+    frame.attrs["units"] = dict(EVENT_UNITS)
+    return frame
+
+
+def history_table(rows: np.ndarray) -> pd.DataFrame:
+    """One row per recorded instant."""
+    import pandas as pd
+
+    frame = pd.DataFrame({name: rows[name] for name in rows.dtype.names or ()})
+    units = {name: HISTORY_UNITS[name.removesuffix("_left").removesuffix("_right")] for name in frame}
+    frame.attrs["units"] = units
+    return frame

@@ -1,0 +1,71 @@
+"""What became of a run: status and message."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.kernel import layout
+from saleg.prepare import State
+from saleg.results import last_cycle_start
+from saleg.status import Status
+
+#: Change of the dead centres per cycle, over the half stroke (Eq. 68), below which a run is steady.
+STEADY = 1e-6
+#: Cycles over which it must stay below.
+STEADY_CYCLES = 5
+
+
+def verdict(engine: Engine, code: int, state: State, strokes: np.ndarray) -> tuple[Status, str]:
+    """Status of a run and a message that says what happened, when, and what to try."""
+    E = state.engine[0]
+    t, x = float(E["t"]), 1e3 * float(state.y[layout.X])
+    if code == layout.HEAD_CONTACT:
+        side = "left" if x < 0.0 else "right"
+        return Status.HEAD_CONTACT, (
+            f"the piston reached the {side} head at t = {t:.6g} s (x = {x:.5g} mm); "
+            "try less fuel, a larger alternator.load_constant or more half_stroke"
+        )
+    if code == layout.STEP_FAILURE:
+        return Status.STEP_FAILURE, (
+            f"no step was small enough at t = {t:.6g} s (x = {x:.5g} mm); "
+            "try a looser rtol, or check the laws for values that are not finite"
+        )
+    if code == layout.STALLED:
+        share = 100.0 * float(E["stroke"] / E["maximum_stroke"])
+        return Status.STALLED, (
+            f"the stroke fell to {share:.2g} % of the maximum at t = {t:.6g} s; {_STALL_HINT}"
+        )
+    return _at_end_of_time(engine, t, strokes)
+
+
+_STALL_HINT = "try a smaller alternator.load_constant, more fuel, or another start"
+
+
+def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Status, str]:
+    start = last_cycle_start(strokes)
+    if start is None:
+        return Status.COMPLETED, f"ran to t = {t:.6g} s without completing a cycle; try a longer run"
+    cycle = strokes[start : start + 2]
+    if engine.fires and not cycle["heat_released"].sum() > 0.0:
+        fired = np.flatnonzero(strokes["heat_released"].sum(axis=1) > 0.0)
+        since = f"since t = {float(strokes['t'][fired[-1]]):.6g} s" if len(fired) else "at all"
+        return Status.STALLED, f"ran to t = {t:.6g} s but has not fired {since}; {_STALL_HINT}"
+    if engine.fires and not cycle["electrical_energy"].sum() > 1e-9 * cycle["heat_released"].sum():
+        return Status.IDLING, (
+            f"fires at t = {t:.6g} s but delivers no power: the alternator's load weight is "
+            f"{float(cycle['load_weight'][-1]):.3g}; try more fuel or a smaller target stroke"
+        )
+    change = _change_per_cycle(engine, strokes[: start + 2])
+    if change is not None and change < STEADY:
+        return Status.STEADY, f"steady at t = {t:.6g} s: dead centres change by {change:.1e} L per cycle"
+    drift = "" if change is None else f"; dead centres still change by up to {change:.1e} L per cycle"
+    return Status.COMPLETED, f"ran to t = {t:.6g} s{drift}"
+
+
+def _change_per_cycle(engine: Engine, strokes: np.ndarray) -> float | None:
+    """Largest change of a dead centre from cycle to cycle over the last few, in half strokes."""
+    ends = strokes["x_end"][-2 * STEADY_CYCLES - 2 :]
+    if len(ends) < 2 * STEADY_CYCLES + 2:
+        return None
+    return float(np.abs(ends[2:] - ends[:-2]).max() / (0.5 * engine.maximum_stroke))
