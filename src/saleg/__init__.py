@@ -11,8 +11,7 @@ from saleg.performance import EnergyBalance, Performance
 from saleg.results import Run
 from saleg.simulate import simulate
 from saleg.status import Status
-
-__version__ = "0.1.0"
+from saleg.version import __version__
 
 __all__ = [
     "BounceChamber",
@@ -30,6 +29,7 @@ __all__ = [
     "Status",
     "Translator",
     "UnknownPath",
+    "__version__",
     "laws",
     "machines",
     "simulate",

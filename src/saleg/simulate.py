@@ -230,6 +230,7 @@ def _drive(
     """Call the kernel until it is done; returns why it stopped."""
     method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
     order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
+    work = _work_space(len(method.b))
     with _progress(settings.duration) as bar:
         while True:
             before = float(state.engine["t"][0])
@@ -248,6 +249,7 @@ def _drive(
                 records.history,
                 records.filled,
                 snapshot,
+                work,
             )
             records.empty_buffers()
             if bar is not None:
@@ -270,6 +272,13 @@ def _options(settings: Settings, t_end: float) -> np.ndarray:
     options["last_stroke"] = settings.last_stroke
     options["stall"] = settings.stall_stroke
     return options
+
+
+def _work_space(stages: int) -> tuple[Any, ...]:
+    """Scratch arrays of the integrator: rates of the stages, new state, and the same to spare."""
+    n = layout.N_ALL
+    spare = (np.zeros(n), np.zeros(n), np.zeros((stages + 1, n)), np.zeros(n))
+    return np.zeros((stages + 1, n)), np.zeros(n), spare
 
 
 def _snapshot(state: State) -> tuple[np.ndarray, ...]:

@@ -83,7 +83,8 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
         "t": out["t"] - out["duration"],
         "period": period,
         "frequency": 1.0 / period,
-        "stroke": 0.5 * (np.abs(out["x_end"] - out["x_start"]) + np.abs(back["x_end"] - back["x_start"])),
+        "stroke": 0.5
+        * (np.abs(out["x_end"] - out["x_start"]) + np.abs(back["x_end"] - back["x_start"])),
         "x_left": back["x_end"],
         "x_right": out["x_end"],
         "compression_ratio": _compression_ratios(engine, out, back),
@@ -144,7 +145,12 @@ def history_table(rows: np.ndarray) -> pd.DataFrame:
     """One row per recorded instant."""
     import pandas as pd
 
-    frame = pd.DataFrame({name: rows[name] for name in rows.dtype.names or ()})
-    units = {name: HISTORY_UNITS[name.removesuffix("_left").removesuffix("_right")] for name in frame}
+    columns, units = {}, {}
+    for name in rows.dtype.names or ():
+        sides = ("",) if rows[name].ndim == 1 else ("_left", "_right")
+        for index, side in enumerate(sides):
+            columns[name + side] = rows[name] if not side else rows[name][:, index]
+            units[name + side] = HISTORY_UNITS[name]
+    frame = pd.DataFrame(columns)
     frame.attrs["units"] = units
     return frame

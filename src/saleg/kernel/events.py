@@ -14,7 +14,6 @@ from saleg.kernel.layout import (
     MOTORED,
     N_EVENTS,
     OPEN,
-    PORT,
     THETA,
     V,
     X,
@@ -166,7 +165,10 @@ def is_sound(C, y):
     for n in range(MOTORED + 2):
         if not isfinite(y[n]):
             return False
-    return height_of(C, 0, y[X]) > 0.0 and height_of(C, 1, y[X]) > 0.0
+    for side in range(2):
+        if height_of(C, side, y[X]) <= 0.0:
+            return False
+    return True
 
 
 @compiled

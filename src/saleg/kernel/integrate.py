@@ -4,7 +4,7 @@ One loop serves fixed steps on a grid and the adaptive pair. A step that crosses
 shortened to end on it; there modes change and the next step starts afresh.
 """
 
-import numpy as np
+from math import copysign
 
 from saleg.kernel.events import first_event, is_sound, land, locate, next_time_event
 from saleg.kernel.jit import cached, compiled, inline
@@ -137,17 +137,17 @@ def has_room(O, strokes, events, history, filled):
 
 
 @cached
-def run_on(P1, E1, C, y, peaks, tableau, order, O1, strokes, events, history, filled, snapshot):
+def run_on(
+    P1, E1, C, y, peaks, tableau, order, O1, strokes, events, history, filled, snapshot, work
+):
     """Integrate until the end, a buffer is full, or nothing more can be done.
 
     Returns one of the codes of :mod:`saleg.kernel.layout`. All state is in the arguments, so a
-    call continues where the one before stopped.
+    call continues where the one before stopped. `work` is scratch space, made by the caller.
     """
     P, E, O = P1[0], E1[0], O1[0]
     stages = tableau[1].shape[0]
-    k = np.zeros((stages + 1, N_ALL))
-    y_new = np.zeros(N_ALL)
-    spare = (np.zeros(N_ALL), np.zeros(N_ALL), np.zeros((stages + 1, N_ALL)), np.zeros(N_ALL))
+    k, y_new, spare = work
     last_step = E.steps + O.max_steps
     rhs(P, E, C, E.t, y, k[0], O.motored)
     E.evaluations += 1.0
@@ -159,7 +159,7 @@ def run_on(P1, E1, C, y, peaks, tableau, order, O1, strokes, events, history, fi
         if full < 0.0:
             return STEP_FAILURE
         if E.direction == 0.0:
-            E.direction = np.sign(y_new[V])
+            E.direction = copysign(1.0, y_new[V]) if y_new[V] != 0.0 else 0.0
         h, landed = advance_to_event(P, E, C, O, tableau, full, y, k, y_new)
         if O.peaks > 0:
             watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare)

@@ -196,31 +196,16 @@ EVENT_RECORD = np.dtype(
     + [(name, np.float64) for name in ("x", "v", "p", "T")]
 )
 
-#: One row of the history.
+#: One row of the history; values per side are left, right.
 HISTORY_RECORD = np.dtype(
-    [
+    [(name, np.float64) for name in ("t", "x", "v", "a")]
+    + [
+        (name, np.float64, (2,))
+        for name in ("p", "T", "V", "p_motored", "heat_release", "heat_loss", "ignition", "mode")
+    ]
+    + [
         (name, np.float64)
         for name in (
-            "t",
-            "x",
-            "v",
-            "a",
-            "p_left",
-            "p_right",
-            "T_left",
-            "T_right",
-            "V_left",
-            "V_right",
-            "p_motored_left",
-            "p_motored_right",
-            "heat_release_left",
-            "heat_release_right",
-            "heat_loss_left",
-            "heat_loss_right",
-            "ignition_left",
-            "ignition_right",
-            "mode_left",
-            "mode_right",
             "spring_force",
             "friction_force",
             "alternator_force",

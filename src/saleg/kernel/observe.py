@@ -7,11 +7,9 @@ from saleg.kernel.layout import (
     HEAT_LOST,
     HEAT_RELEASED,
     IGNITION,
-    LEFT,
     MOTORED,
     N_STATE,
     OPEN,
-    RIGHT,
     THETA,
     V,
     X,
@@ -36,20 +34,16 @@ def observe(P, E, C, y, dy, motored, row):
     """Fill a row of the history from the state `y` and its rates `dy`."""
     motion = Motion(E.t, y[X], y[V], E.direction)
     row.t, row.x, row.v, row.a = E.t, y[X], y[V], dy[V]
-    row.p_left, row.T_left = pressure_and_temperature(C, LEFT, y)
-    row.p_right, row.T_right = pressure_and_temperature(C, RIGHT, y)
-    row.V_left = C[LEFT].area * height_of(C, LEFT, y[X])
-    row.V_right = C[RIGHT].area * height_of(C, RIGHT, y[X])
-    row.p_motored_left = motored_pressure(E, C, LEFT, y, motored)
-    row.p_motored_right = motored_pressure(E, C, RIGHT, y, motored)
-    row.heat_release_left = dy[N_STATE + HEAT_RELEASED + LEFT]
-    row.heat_release_right = dy[N_STATE + HEAT_RELEASED + RIGHT]
-    row.heat_loss_left = dy[N_STATE + HEAT_LOST + LEFT]
-    row.heat_loss_right = dy[N_STATE + HEAT_LOST + RIGHT]
-    row.ignition_left = y[IGNITION + LEFT]
-    row.ignition_right = y[IGNITION + RIGHT]
-    row.mode_left = C[LEFT].mode
-    row.mode_right = C[RIGHT].mode
+    for side in range(2):
+        p, T = pressure_and_temperature(C, side, y)
+        row.p[side] = p
+        row.T[side] = T
+        row.V[side] = C[side].area * height_of(C, side, y[X])
+        row.p_motored[side] = motored_pressure(E, C, side, y, motored)
+        row.heat_release[side] = dy[N_STATE + HEAT_RELEASED + side]
+        row.heat_loss[side] = dy[N_STATE + HEAT_LOST + side]
+        row.ignition[side] = y[IGNITION + side]
+        row.mode[side] = C[side].mode
     row.spring_force = springs_force(P, motion)
     row.friction_force = friction_force(P, E.friction_held, motion)
     row.alternator_force = alternator_force(P, E.load_weight, motion)

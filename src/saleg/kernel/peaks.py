@@ -11,6 +11,7 @@ from saleg.kernel.events import cubic, pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     G0,
+    N_ALL,
     N_PEAKS,
     N_STATE,
     OPEN,
@@ -119,12 +120,11 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
         if r1 >= 0.0:
             continue
         s = top_of_cubic(q0, r0, q1, r1, h)
-        spare_k[0] = k[0]
+        for n in range(N_ALL):
+            spare_k[0, n] = k[0, n]
         take_step(P, E, C, tableau, t, s, y, spare_k, inner, motored)
         q = watched(C, peak, inner, spare_k[stages])
-        r = watched_rate(
-            P, E, C, peak, t + s, inner, spare_k[stages], spare_y, spare_dy, motored
-        )
+        r = watched_rate(P, E, C, peak, t + s, inner, spare_k[stages], spare_y, spare_dy, motored)
         peaks[peak] = max(peaks[peak], q)
         if r > 0.0 and s < h:
             rest = top_of_cubic(q, r, q1, r1, h - s)

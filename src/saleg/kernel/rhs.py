@@ -20,12 +20,10 @@ from saleg.kernel.layout import (
     HEAT_LOST,
     HEAT_RELEASED,
     IGNITION,
-    LEFT,
     MOTORED,
     N_STATE,
     OPEN,
     PORT_WORK,
-    RIGHT,
     SPEED_SQUARED,
     THETA,
     V,
@@ -166,15 +164,14 @@ def motored_gas(C, side, gas):
 
 
 @inline
-def rates_of_motion(P, E, C, t, y, dy, p_left, p_right):
+def rates_of_motion(P, E, t, y, dy, gas_force):
     """Newton's law (Eq. 36) and the quadratures of the translator."""
     motion = Motion(t, y[X], y[V], E.direction)
     generator = alternator_force(P, E.load_weight, motion)
     friction = friction_force(P, E.friction_held, motion)
     power = alternator_electrical_power(P, E.load_weight, motion)
-    gas = C[LEFT].area * p_left - C[RIGHT].area * p_right
     dy[X] = y[V]
-    dy[V] = (gas + springs_force(P, motion) - generator - friction) / E.mass
+    dy[V] = (gas_force + springs_force(P, motion) - generator - friction) / E.mass
     dy[N_STATE + ALTERNATOR_WORK] = generator * y[V]
     dy[N_STATE + ELECTRICAL_ENERGY] = power
     dy[N_STATE + ELECTRICAL_SQUARED] = power * power
@@ -186,6 +183,8 @@ def rates_of_motion(P, E, C, t, y, dy, p_left, p_right):
 @compiled
 def rhs(P, E, C, t, y, dy, motored):
     """Write the rates of the state `y` and of all quadratures into `dy`."""
-    p_left = chamber_rates(P, E, C, LEFT, t, y, dy, motored)
-    p_right = chamber_rates(P, E, C, RIGHT, t, y, dy, motored)
-    rates_of_motion(P, E, C, t, y, dy, p_left, p_right)
+    gas_force = 0.0
+    for side in range(2):
+        pressure = chamber_rates(P, E, C, side, t, y, dy, motored)
+        gas_force += C[side].sign * C[side].area * pressure
+    rates_of_motion(P, E, t, y, dy, gas_force)

@@ -69,7 +69,9 @@ def record_event(E, C, O, y, kind, side, events, filled):
     row.side = side
     row.x = y[X]
     row.v = y[V]
-    row.p, row.T = pressure_and_temperature(C, max(side, 0), y)
+    p, T = pressure_and_temperature(C, side, y)
+    row.p = p
+    row.T = T
 
 
 @inline
@@ -234,26 +236,13 @@ def regulate(P, E, C, y):
     E.friction_held = friction_at_dead_centre(P, E.friction_held, stroke)
 
 
-@compiled
-def turn(P, E, C, O, y, peaks, strokes, events, filled):
-    """Dead centre: close the books of the stroke, let the regulators act, turn around."""
-    if isfinite(E.x_dead_centre) and E.t > E.t_dead_centre:
-        write_stroke(P, E, C, y, peaks, strokes[filled[0]])
-        filled[0] += 1
-        regulate(P, E, C, y)
-        E.strokes += 1.0
-    E.direction = -E.direction
-    record_event(E, C, O, y, EVENT_DEAD_CENTRE, LEFT if E.direction > 0.0 else RIGHT, events, filled)
-    for side in range(2):
-        c = C[side]
-        if c.armed == 1 and c.sign * E.direction > 0.0:
-            c.armed = 0
-            y[IGNITION + side] = 0.0
-            record_event(E, C, O, y, EVENT_MISFIRE, side, events, filled)
-    begin_stroke(E, C, y, peaks)
+@inline
+def misfires(E, C, side):
+    """Whether a chamber that begins to expand holds a charge that should have lit."""
+    return C[side].armed == 1 and C[side].mode == CLOSED and C[side].sign * E.direction > 0.0
 
 
-@compiled
+@inline
 def ports_due(E, C, side, y):
     """Whether a chamber stands at its ports, about to pass them."""
     c = C[side]
@@ -266,37 +255,80 @@ def ports_due(E, C, side, y):
 
 
 @compiled
-def switch_chambers(P, E, C, O, y, events, filled):
-    """Let every chamber change its mode that is due; returns how many did."""
-    changed = 0
-    for side in range(2):
-        c = C[side]
-        if c.mode == BURNING and E.t >= c.t_end:
-            end_combustion(P, E, C, side)
-            record_event(E, C, O, y, EVENT_END_OF_COMBUSTION, side, events, filled)
-            changed += 1
-        if c.mode == CLOSED and c.armed == 1 and y[IGNITION + side] >= 1.0:
-            ignite(P, E, C, side, y, O.motored)
-            record_event(E, C, O, y, EVENT_IGNITION, side, events, filled)
-            changed += 1
-        if ports_due(E, C, side, y):
-            changed += 1
-            if c.mode == OPEN:
-                close_ports(P, E, C, side, y)
-                record_event(E, C, O, y, EVENT_PORT_CLOSING, side, events, filled)
-            else:
-                record_event(E, C, O, y, EVENT_PORT_OPENING, side, events, filled)
-                open_ports(P, E, C, side, y)
-    return changed
+def change_due(E, C, side, y):
+    """Kind of the event that is due in a chamber now; -1 if none is."""
+    c = C[side]
+    if c.mode == BURNING and E.t >= c.t_end:
+        return EVENT_END_OF_COMBUSTION
+    if misfires(E, C, side):
+        return EVENT_MISFIRE
+    if c.mode == CLOSED and c.armed == 1 and y[IGNITION + side] >= 1.0:
+        return EVENT_IGNITION
+    if ports_due(E, C, side, y):
+        return EVENT_PORT_CLOSING if c.mode == OPEN else EVENT_PORT_OPENING
+    return -1
+
+
+@compiled
+def change_mode(P, E, C, O, side, y, kind):
+    """Carry out the change of a chamber that is due."""
+    if kind == EVENT_END_OF_COMBUSTION:
+        end_combustion(P, E, C, side)
+    elif kind == EVENT_MISFIRE:
+        C[side].armed = 0
+        y[IGNITION + side] = 0.0
+    elif kind == EVENT_IGNITION:
+        ignite(P, E, C, side, y, O.motored)
+    elif kind == EVENT_PORT_CLOSING:
+        close_ports(P, E, C, side, y)
+    else:
+        open_ports(P, E, C, side, y)
+
+
+@compiled
+def turn(P, E, C, y, peaks, strokes, filled):
+    """Dead centre: close the books of the stroke, let the regulators act, turn around."""
+    if isfinite(E.x_dead_centre) and E.t > E.t_dead_centre:
+        write_stroke(P, E, C, y, peaks, strokes[filled[0]])
+        filled[0] += 1
+        regulate(P, E, C, y)
+        E.strokes += 1.0
+    E.direction = -E.direction
+    begin_stroke(E, C, y, peaks)
 
 
 @compiled
 def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
-    """Do all that is due at the present instant; returns whether anything was."""
-    changed = switch_chambers(P, E, C, O, y, events, filled)
-    if landed == DEAD_CENTRE:
-        turn(P, E, C, O, y, peaks, strokes, events, filled)
-        changed += 1 + switch_chambers(P, E, C, O, y, events, filled)
+    """Do all that is due at the present instant; returns whether anything was.
+
+    Chambers change first, one after the other, then the translator turns, which may make further
+    changes due. Every change takes away its own cause, so this ends; the bound is a safeguard.
+    """
+    turns = landed == DEAD_CENTRE
+    changed = False
+    for _ in range(12):
+        quiet = True
+        for side in range(2):
+            kind = change_due(E, C, side, y)
+            if kind >= 0:
+                record_event(E, C, O, y, kind, side, events, filled)
+                change_mode(P, E, C, O, side, y, kind)
+                quiet = False
+                changed = True
+        if quiet and not turns:
+            break
+        if quiet:
+            turn(P, E, C, y, peaks, strokes, filled)
+            side = LEFT if E.direction > 0.0 else RIGHT
+            record_event(E, C, O, y, kind_of_turn(landed), side, events, filled)
+            turns = False
+            changed = True
     if landed >= HEAD:
-        record_event(E, C, O, y, EVENT_HEAD_CONTACT, (landed - 1) % 2, events, filled)
-    return changed > 0
+        record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, events, filled)
+    return changed
+
+
+@inline
+def kind_of_turn(landed):
+    """Kind of the event at which the translator itself was stopped."""
+    return EVENT_HEAD_CONTACT if landed >= HEAD else EVENT_DEAD_CENTRE

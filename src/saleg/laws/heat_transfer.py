@@ -41,13 +41,7 @@ class Hohenberg(HeatTransfer):
     def coefficient(self, gas: Gas, charge: Charge) -> float:
         """Heat-transfer coefficient [W/m^2/K], Eq. 51."""
         speed = gas.mean_piston_speed + 1.4
-        return (
-            self.a
-            * gas.V**self.b
-            * (gas.p * 1e-5) ** self.c
-            * gas.T**self.d
-            * speed**self.e
-        )
+        return self.a * gas.V**self.b * (gas.p * 1e-5) ** self.c * gas.T**self.d * speed**self.e
 
 
 @dataclass(frozen=True)
