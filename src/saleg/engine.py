@@ -326,6 +326,9 @@ class Engine:
         return read_toml(path, laws)
 
 
+_CHAMBER_PARTS: dict[str, type] = {**CHAMBER_SLOTS, "intake": Intake, "fuel": Fuel}
+
+
 def _slot_problems(engine: Engine) -> list[Problem]:
     """Parts and laws that are not of the kind their place asks for."""
     found = []
@@ -334,9 +337,9 @@ def _slot_problems(engine: Engine) -> list[Problem]:
     for side, chamber in zip(("left", "right"), engine.chambers, strict=True):
         found += _kind_problem(chamber, Chamber, side)
         for item in fields(chamber) if isinstance(chamber, Chamber) else ():
-            kind = {**CHAMBER_SLOTS, "intake": Intake, "fuel": Fuel}.get(item.name)
-            if kind is not None:
-                found += _kind_problem(getattr(chamber, item.name), kind, f"{side}.{item.name}")
+            if item.name in _CHAMBER_PARTS:
+                part, kind = getattr(chamber, item.name), _CHAMBER_PARTS[item.name]
+                found += _kind_problem(part, kind, f"{side}.{item.name}")
     return found
 
 

@@ -55,9 +55,9 @@ def _targets(engine: Engine, path: str) -> list[tuple[str, ...]]:
     """Attribute chains a path stands for: one, or two for a path of both chambers."""
     if not isinstance(path, str):
         raise UnknownPath(f"a path is text such as 'intake.pressure', not {path!r}")
-    first, _, rest = path.partition(".")
-    if first in ("left", "right"):
-        candidates = [(first, *_expand(rest, CHAMBER_ALIASES))] if rest else [(first,)]
+    first, dot, rest = path.partition(".")
+    if dot and first in ("left", "right"):
+        candidates = [(first, *_expand(rest, CHAMBER_ALIASES))]
     elif first in {item.name for item in dataclasses.fields(engine)} | set(ENGINE_ALIASES):
         candidates = [_expand(path, ENGINE_ALIASES)]
     else:

@@ -76,13 +76,16 @@ class Performance:
     def of_cycle(cls, engine: Engine, strokes: np.ndarray) -> Performance:
         """Performance over the two strokes of a cycle (rows of ``STROKE_RECORD``)."""
         period = float(strokes["duration"].sum())
+        ends = np.concatenate([strokes["x_start"], strokes["x_end"]])
         power = float(strokes["electrical_energy"].sum()) / period
         fuel = float(strokes["fresh_fuel_energy"].sum())
         cylinders = [isinstance(chamber, Cylinder) for chamber in engine.chambers]
         masses = strokes["charge_mass"][-1][cylinders] if any(cylinders) else np.array([nan])
         return cls(
             stroke=float(np.abs(strokes["x_end"] - strokes["x_start"]).mean()),
-            compression_ratio=compression_ratio(engine, strokes),
+            compression_ratio=float(
+                compression_ratio(engine, float(ends.min()), float(ends.max()))
+            ),
             frequency=1.0 / period,
             power=power,
             rms_power=math.sqrt(float(strokes["electrical_squared"].sum()) / period),
@@ -97,21 +100,30 @@ class Performance:
         )
 
 
-def compression_ratio(engine: Engine, strokes: np.ndarray) -> float:
-    """Geometric compression ratio over some strokes, the mean of the cylinders' [-]."""
-    ends = np.concatenate([strokes["x_start"], strokes["x_end"]])
-    low, high = float(ends.min()), float(ends.max())
+def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
+    """Geometric compression ratio between two positions, the mean of the cylinders' [-].
+
+    Parameters
+    ----------
+    engine : Engine
+    low, high : float or ndarray
+        Dead centres [m].
+
+    Returns
+    -------
+    float or ndarray
+        For a symmetric orbit ``(L + S/2) / (L - S/2)``. Without a cylinder, of both chambers.
+    """
     left, right = engine.chambers
     ratios = [
         (left.half_stroke + high) / (left.half_stroke + low),
         (right.half_stroke - low) / (right.half_stroke - high),
     ]
+    fired = [isinstance(chamber, Cylinder) for chamber in engine.chambers]
     chosen = [
-        ratio
-        for ratio, chamber in zip(ratios, engine.chambers, strict=True)
-        if isinstance(chamber, Cylinder)
+        ratio for ratio, counts in zip(ratios, fired, strict=True) if counts or not any(fired)
     ]
-    return float(np.mean(chosen or ratios))
+    return sum(chosen) / len(chosen)
 
 
 @dataclass(frozen=True)

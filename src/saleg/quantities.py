@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import reprlib
 from typing import Any, NamedTuple
 
 
@@ -82,13 +83,13 @@ class Problem(NamedTuple):
 
     def __str__(self) -> str:
         unit = "" if self.unit in ("", "-") else f" [{self.unit}]"
-        shown = repr(self.value)
-        return f"{self.path} = {shown if len(shown) < 60 else shown[:57] + '...'}{unit}: {self.allowed}"
+        shown = reprlib.repr(self.value)
+        return f"{self.path} = {shown}{unit}: {self.allowed}"
 
 
 def is_number(value: Any) -> bool:
     """Whether a value is a plain real number (a bool is not)."""
-    if isinstance(value, bool) or isinstance(value, (str, bytes)):
+    if isinstance(value, (bool, str, bytes)):
         return False
     try:
         float(value)

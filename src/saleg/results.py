@@ -61,7 +61,7 @@ class Run:
 
     @property
     def last_cycle_strokes(self) -> np.ndarray | None:
-        """Records of the last full cycle, left dead centre to left dead centre; None without one."""
+        """Records of the last full cycle, left to left dead centre; None without one."""
         start = last_cycle_start(self.strokes)
         return None if start is None else self.strokes[start : start + 2]
 
@@ -72,7 +72,7 @@ class Run:
 
     @cached_property
     def events(self) -> pd.DataFrame:
-        """One row per event: time [s], kind, side, position [m], velocity, pressure, temperature."""
+        """One row per event: when, what, which side, and the state there; units in ``.attrs``."""
         return event_table(self.event_rows, EVENT_NAMES)
 
     @cached_property
@@ -82,7 +82,7 @@ class Run:
 
     @cached_property
     def orbit(self) -> Run | None:
-        """The last full cycle again, with its whole history and every peak located; None without one."""
+        """The last full cycle again, with its whole history and all peaks located; or None."""
         return self.replay() if self.replay is not None else None
 
     @cached_property
@@ -98,7 +98,7 @@ class Run:
 
     @cached_property
     def energy(self) -> EnergyBalance | None:
-        """Energy balance of the last full cycle; None if there are not three strokes to take it from."""
+        """Energy balance of the last full cycle; None if no stroke is known before it."""
         start = last_cycle_start(self.strokes)
         if start is None or start == 0:
             return None

@@ -84,37 +84,42 @@ class Start:
 class CompressedCharge(Start):
     """At rest near a head, with a compressed charge there, burning or not.
 
-    The charge in the left chamber (in the right one if only that is a cylinder) stands at
-    ``p_in (d_po/d)^1.35``.
+    The charge stands at ``p_in (d_po/d)^1.35``. If the chamber at that end is no cylinder but the
+    other one is, the mirror image is meant.
 
     Parameters
     ----------
     position : float
-        Distance from the midpoint as a share of the half stroke [-].
+        Position as a share of the half stroke, negative on the left [-].
     burning : float
         1 to light the charge at time zero, 0 to leave it unlit.
     """
 
-    position: float = quantity("-", default=0.9, low=0, high=1, open_low=True, open_high=True)
+    position: float = quantity("-", default=-0.9, low=-1, high=1, open_low=True, open_high=True)
     burning: float = quantity("-", default=1.0, low=0, high=1)
 
     def initial(self, engine: Engine) -> Initial:
         """State of the engine at time zero."""
-        on_left = _is_cylinder(engine.left) or not _is_cylinder(engine.right)
-        charged = engine.left if on_left else engine.right
+        side = 0 if self.position < 0.0 else 1
+        if _is_cylinder(engine.chambers[1 - side]) and not _is_cylinder(engine.chambers[side]):
+            side = 1 - side
+        charged = engine.chambers[side]
         length = charged.half_stroke
-        x = (-1.0 if on_left else 1.0) * min(self.position * length, length - 2 * charged.head_gap)
+        depth = min(abs(self.position) * length, length - 2 * charged.head_gap)
+        x = depth if side == 1 else -depth
         lit = bool(self.burning) and _is_cylinder(charged)
-        left = contents(engine.left, x, burning=lit and on_left)
-        right = contents(engine.right, -x, burning=lit and not on_left)
-        energy = _stored_energy(engine, charged, x, left if on_left else right, lit)
+        held = (
+            contents(engine.left, x, burning=lit and side == 0),
+            contents(engine.right, -x, burning=lit and side == 1),
+        )
+        energy = _stored_energy(engine, charged, x, held[side], lit)
         speed = 0.75 * math.sqrt(2.0 * energy / engine.translator.mass)
-        return Initial(x, 0.0, True, 2.0 * abs(x), speed, left, right)
+        return Initial(x, 0.0, True, 2.0 * depth, speed, *held)
 
 
 @dataclass(frozen=True)
 class MidpointVelocity(Start):
-    """Passing the midpoint to the right, both charges where compression would have them.
+    """Passing the midpoint, both charges where compression would have them.
 
     The velocity is ``factor pi f S``, that of a harmonic motion times a factor.
 
@@ -125,19 +130,20 @@ class MidpointVelocity(Start):
     stroke : float
         Stroke S as a share of the maximum stroke [-].
     factor : float
-        Peak velocity over that of a harmonic motion [-].
+        Peak velocity over that of a harmonic motion, negative to the left [-].
     """
 
     frequency: float = quantity("Hz", default=45.0, low=0, open_low=True)
     stroke: float = quantity("-", default=0.9, low=0, high=1, open_low=True)
-    factor: float = quantity("-", default=1.15, low=0, open_low=True)
+    factor: float = quantity("-", default=1.15)
 
     def initial(self, engine: Engine) -> Initial:
         """State of the engine at time zero."""
         stroke = self.stroke * engine.maximum_stroke
         v = self.factor * math.pi * self.frequency * stroke
-        left = contents(engine.left, 0.0)._replace(armed=False)
-        right = contents(engine.right, 0.0)
+        left, right = contents(engine.left, 0.0), contents(engine.right, 0.0)
+        left = left._replace(armed=left.armed and v < 0.0)
+        right = right._replace(armed=right.armed and v > 0.0)
         return Initial(0.0, v, False, stroke, 2.0 * stroke * self.frequency, left, right)
 
 
@@ -154,11 +160,11 @@ class AtRest(Start):
 
 
 def contents(chamber: Any, displacement: float, burning: bool = False) -> Contents:
-    """What a chamber holds when its piston is `displacement` [m] away from the midpoint position."""
+    """What a chamber holds with its piston `displacement` [m] from the midpoint, outward."""
     height = chamber.half_stroke + displacement
     if not _is_cylinder(chamber):
         squeeze = chamber.half_stroke / height
-        pressure = chamber.pressure * squeeze**COMPRESSION_EXPONENT
+        pressure = chamber.pressure * squeeze ** chamber.gas_properties.gamma(chamber.temperature)
         return Contents(False, False, False, pressure, _bounce_mass(chamber), 0.0, 0.0, 0.0)
     mass, fuel, air, burnt = standard_charge(chamber)
     is_open = height >= chamber.port_closing

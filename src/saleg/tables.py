@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from saleg.engine import Engine
+from saleg.performance import compression_ratio
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -74,6 +75,8 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
 
     starts = np.flatnonzero((strokes["direction"][:-1] > 0.0) & (strokes["direction"][1:] < 0.0))
     out, back = strokes[starts], strokes[starts + 1]
+    travelled = np.abs(out["x_end"] - out["x_start"]) + np.abs(back["x_end"] - back["x_start"])
+    low = np.minimum(out["x_start"], back["x_end"])
     period = out["duration"] + back["duration"]
     electrical = out["electrical_energy"] + back["electrical_energy"]
     fuel = out["fresh_fuel_energy"].sum(axis=1) + back["fresh_fuel_energy"].sum(axis=1)
@@ -83,11 +86,10 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
         "t": out["t"] - out["duration"],
         "period": period,
         "frequency": 1.0 / period,
-        "stroke": 0.5
-        * (np.abs(out["x_end"] - out["x_start"]) + np.abs(back["x_end"] - back["x_start"])),
+        "stroke": 0.5 * travelled,
         "x_left": back["x_end"],
         "x_right": out["x_end"],
-        "compression_ratio": _compression_ratios(engine, out, back),
+        "compression_ratio": compression_ratio(engine, low, out["x_end"]),
         "power": electrical / period,
         "efficiency": efficiency,
         "load_weight": back["load_weight"],
@@ -115,13 +117,6 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
     return frame
 
 
-def _compression_ratios(engine: Engine, out: np.ndarray, back: np.ndarray) -> np.ndarray:
-    from saleg.performance import compression_ratio
-
-    pairs = zip(out, back, strict=True)
-    return np.array([compression_ratio(engine, np.array(pair, out.dtype)) for pair in pairs])
-
-
 def event_table(rows: np.ndarray, names: tuple[str, ...]) -> pd.DataFrame:
     """One row per event."""
     import pandas as pd
@@ -129,8 +124,8 @@ def event_table(rows: np.ndarray, names: tuple[str, ...]) -> pd.DataFrame:
     frame = pd.DataFrame(
         {
             "t": rows["t"],
-            "event": pd.Categorical.from_codes(rows["kind"], categories=list(names)),
-            "side": pd.Categorical.from_codes(rows["side"], categories=["left", "right"]),
+            "event": _named(rows["kind"], names),
+            "side": _named(rows["side"], ("left", "right")),
             "x": rows["x"],
             "v": rows["v"],
             "pressure": rows["p"],
@@ -139,6 +134,12 @@ def event_table(rows: np.ndarray, names: tuple[str, ...]) -> pd.DataFrame:
     )
     frame.attrs["units"] = dict(EVENT_UNITS)
     return frame
+
+
+def _named(codes: np.ndarray, names: tuple[str, ...]) -> Any:
+    import pandas as pd
+
+    return pd.Categorical.from_codes(codes.tolist(), categories=pd.Index(names))
 
 
 def history_table(rows: np.ndarray) -> pd.DataFrame:

@@ -39,16 +39,14 @@ def verdict(engine: Engine, code: int, state: State, strokes: np.ndarray) -> tup
     return _at_end_of_time(engine, t, strokes)
 
 
+_PER_CYCLE = "dead centres change by {:.1e} half strokes per cycle"
 _STALL_HINT = "try a smaller alternator.load_constant, more fuel, or another start"
 
 
 def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Status, str]:
     start = last_cycle_start(strokes)
     if start is None:
-        return (
-            Status.COMPLETED,
-            f"ran to t = {t:.6g} s without completing a cycle; try a longer run",
-        )
+        return Status.COMPLETED, f"ran to t = {t:.6g} s, less than a cycle; try a longer run"
     cycle = strokes[start : start + 2]
     if engine.fires and not cycle["heat_released"].sum() > 0.0:
         fired = np.flatnonzero(strokes["heat_released"].sum(axis=1) > 0.0)
@@ -61,13 +59,8 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
         )
     change = _change_per_cycle(engine, strokes[: start + 2])
     if change is not None and change < STEADY:
-        return (
-            Status.STEADY,
-            f"steady at t = {t:.6g} s: dead centres change by {change:.1e} L per cycle",
-        )
-    drift = (
-        "" if change is None else f"; dead centres still change by up to {change:.1e} L per cycle"
-    )
+        return Status.STEADY, f"steady at t = {t:.6g} s: {_PER_CYCLE.format(change)}"
+    drift = "" if change is None else f", not steady yet: {_PER_CYCLE.format(change)}"
     return Status.COMPLETED, f"ran to t = {t:.6g} s{drift}"
 
 

@@ -90,11 +90,11 @@ def laws_of(engine: Engine) -> dict[str, dict[str, Law]]:
     }
 
 
-def kernel_for(engine: Engine) -> Kernel:
+def kernel_for(engine: Engine, modules: tuple[str, ...] = INTEGRATOR) -> Kernel:
     """Compiled kernel for the laws of an engine; composed once per choice of laws."""
     laws = laws_of(engine)
     classes = tuple(type(law) for place in laws.values() for law in place.values())
-    return _load(classes, INTEGRATOR)
+    return _load(classes, modules)
 
 
 def parameters(engine: Engine) -> np.ndarray:

@@ -165,10 +165,7 @@ def is_sound(C, y):
     for n in range(MOTORED + 2):
         if not isfinite(y[n]):
             return False
-    for side in range(2):
-        if height_of(C, side, y[X]) <= 0.0:
-            return False
-    return True
+    return height_of(C, 0, y[X]) > 0.0 and height_of(C, 1, y[X]) > 0.0
 
 
 @compiled

@@ -1,0 +1,59 @@
+"""Shared by the tests: engines with a closed-form solution, and one cycle at given settings."""
+
+import math
+
+import numpy as np
+
+from saleg import BounceChamber, Engine, Translator
+from saleg.laws import ConstantGamma, LinearLoad, LinearSprings, ViscousFriction
+from saleg.prepare import prepare
+from saleg.simulate import Settings, integrate
+from saleg.start import CompressedCharge
+
+
+def bounce_engine(
+    *, mass=2.0, stiffness=0.0, pressure=1e5, gamma=1.4, bore=0.06, length=0.1, position=-0.8
+):
+    """Two adiabatic gas springs and linear springs; no load, no friction, starts at rest."""
+    chamber = BounceChamber(
+        bore=bore,
+        half_stroke=length,
+        pressure=pressure,
+        gas_properties=ConstantGamma(value=gamma),
+    )
+    return Engine.mirrored(
+        Translator(mass=mass),
+        chamber,
+        springs=LinearSprings(stiffness=stiffness),
+        friction=ViscousFriction(0.0),
+        alternator=LinearLoad(load_constant=0.0, regulator_gain=0.0),
+        start=CompressedCharge(position=position, burning=0.0),
+    )
+
+
+def strokes_from_start(engine, count=2, **settings):
+    """The first strokes of an engine and the state after them."""
+    state = prepare(engine)
+    asked = Settings(duration=10.0, last_stroke=float(count), peaks=2, **settings)
+    return integrate(engine, state, asked), state
+
+
+def cycle_figures(engine, **settings):
+    """Figures of the first cycle that depend on all of the model."""
+    run, state = strokes_from_start(engine, 2, **settings)
+    assert len(run.strokes) == 2
+    strokes = run.strokes
+    return np.array(
+        [
+            run.duration,
+            state.y[0],
+            strokes["x_end"][0],
+            strokes["electrical_energy"].sum(),
+            strokes["heat_lost"].sum(),
+            state.y[2],
+        ]
+    )
+
+
+def area(bore):
+    return math.pi * bore**2 / 4.0
