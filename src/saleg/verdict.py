@@ -60,8 +60,9 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     change = _change_per_cycle(engine, strokes[: start + 2])
     if change is not None and change < STEADY:
         return Status.STEADY, f"steady at t = {t:.6g} s: {_PER_CYCLE.format(change)}"
-    drift = "" if change is None else f", not steady yet: {_PER_CYCLE.format(change)}"
-    return Status.COMPLETED, f"ran to t = {t:.6g} s{drift}"
+    if change is None:
+        return Status.COMPLETED, f"ran to t = {t:.6g} s, too few cycles to tell whether it is steady"
+    return Status.COMPLETED, f"ran to t = {t:.6g} s, not steady yet: {_PER_CYCLE.format(change)}"
 
 
 def _change_per_cycle(engine: Engine, strokes: np.ndarray) -> float | None:
