@@ -52,7 +52,7 @@ def watched(C, peak, y, dy):
 
 @compiled
 def watched_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
-    """Time derivative of a watched quantity.
+    """Time derivative of a watched quantity, relative for pressure and temperature.
 
     Exact where the state gives it; for acceleration and pressure rise, whose derivative would need
     that of every law, by a difference along the solution.
@@ -63,11 +63,10 @@ def watched_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
         side = peak % 2
         if C[side].mode == OPEN:
             return 0.0
-        p, T = pressure_and_temperature(C, side, y)
         rate = pressure_rate(C, side, y, dy)
         if peak < PEAK_TEMPERATURE:
-            return p * rate
-        return T * (rate + C[side].sign * y[V] / height_of(C, side, y[X]))
+            return rate
+        return rate + C[side].sign * y[V] / height_of(C, side, y[X])
     dt = 1e-6 * E.length_scale / E.speed_scale
     for n in range(N_STATE):
         spare_y[n] = y[n] + dt * dy[n]
@@ -95,37 +94,46 @@ def watch_point(C, y, dy, peaks):
         peaks[peak] = max(peaks[peak], watched(C, peak, y, dy))
 
 
+@inline
+def is_costly(peak):
+    """Whether the rate of a watched quantity needs an evaluation of its own."""
+    return peak == PEAK_ACCELERATION or PEAK_PRESSURE_RISE <= peak < PEAK_VELOCITY
+
+
 @compiled
 def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
-    """Take a step from `y` to `y_new` into account, peaks within it included.
+    """Take the peaks within a step from `y` to `y_new` into account.
 
     Those of acceleration and pressure rise only if the options ask for all (`peaks` = 2): they
-    cost further evaluations.
+    cost further evaluations. Maxima at events are left to :func:`watch_point`.
     """
     t, motored = E.t, O.motored
-    stages = tableau[1].shape[0]
+    last = tableau[1].shape[0]
     spare_y, spare_dy, spare_k, inner = spare
     for peak in range(N_PEAKS):
-        q0 = watched(C, peak, y, k[0])
-        q1 = watched(C, peak, y_new, k[stages])
-        promising = max(q0, q1) >= 0.9 * peaks[peak]
-        peaks[peak] = max(peaks[peak], q1)
-        costly = peak == PEAK_ACCELERATION or PEAK_PRESSURE_RISE <= peak < PEAK_VELOCITY
-        if not promising or h <= 0.0 or (costly and O.peaks < 2):
+        if h <= 0.0 or (O.peaks < 2 and is_costly(peak)):
             continue
         r0 = watched_rate(P, E, C, peak, t, y, k[0], spare_y, spare_dy, motored)
         if r0 <= 0.0:
             continue
-        r1 = watched_rate(P, E, C, peak, t + h, y_new, k[stages], spare_y, spare_dy, motored)
-        if r1 >= 0.0:
+        r1 = watched_rate(P, E, C, peak, t + h, y_new, k[last], spare_y, spare_dy, motored)
+        if r1 > 0.0:
             continue
+        q0 = watched(C, peak, y, k[0])
+        q1 = watched(C, peak, y_new, k[last])
+        if O.peaks < 2 and max(q0, q1) < 0.5 * peaks[peak]:
+            continue
+        if peak < PEAK_PRESSURE_RISE:
+            r0, r1 = r0 * q0, r1 * q1
         s = top_of_cubic(q0, r0, q1, r1, h)
         for n in range(N_ALL):
             spare_k[0, n] = k[0, n]
         take_step(P, E, C, tableau, t, s, y, spare_k, inner, motored)
-        q = watched(C, peak, inner, spare_k[stages])
-        r = watched_rate(P, E, C, peak, t + s, inner, spare_k[stages], spare_y, spare_dy, motored)
-        peaks[peak] = max(peaks[peak], q)
+        q = watched(C, peak, inner, spare_k[last])
+        r = watched_rate(P, E, C, peak, t + s, inner, spare_k[last], spare_y, spare_dy, motored)
+        if peak < PEAK_PRESSURE_RISE:
+            r *= q
+        peaks[peak] = max(peaks[peak], q0, q, q1)
         if r > 0.0 and s < h:
             rest = top_of_cubic(q, r, q1, r1, h - s)
             peaks[peak] = max(peaks[peak], cubic(q, r, q1, r1, h - s, rest))
