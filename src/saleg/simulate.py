@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import sys
-from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -18,6 +17,7 @@ from saleg.kernel import layout, tableaus
 from saleg.kernel.compose import Kernel, kernel_for, parameters
 from saleg.prepare import State, prepare
 from saleg.quantities import is_number
+from saleg.records import Records
 from saleg.results import Run
 from saleg.verdict import verdict
 
@@ -158,50 +158,15 @@ def _settings(
     )
 
 
-class Records:
-    """Rows of a run, taken over from the kernel's buffers as they fill."""
-
-    def __init__(self, settings: Settings):
-        keep = settings.keep_cycles
-        few = None if keep is None else 2 * keep + 4
-        rows = 512 if few is None else max(few, 16)
-        self.strokes = np.zeros(rows, layout.STROKE_RECORD)
-        self.events = np.zeros(10 * rows, layout.EVENT_RECORD)
-        self.history = np.zeros(20_000 if settings.history else 0, layout.HISTORY_RECORD)
-        self.filled = np.zeros(3, dtype=np.int64)
-        chunks = None if few is None else 2
-        self._kept: tuple[deque[np.ndarray], ...] = (
-            deque(maxlen=chunks),
-            deque(maxlen=chunks),
-            deque(),
-        )
-        self._few = (few, None if few is None else 10 * few, None)
-
-    def empty_buffers(self) -> None:
-        """Move what the kernel has written out of its buffers."""
-        for index, buffer in enumerate((self.strokes, self.events, self.history)):
-            if self.filled[index]:
-                self._kept[index].append(buffer[: self.filled[index]].copy())
-            self.filled[index] = 0
-
-    def rows(self, index: int) -> np.ndarray:
-        """All rows kept: 0 strokes, 1 events, 2 history."""
-        buffer = (self.strokes, self.events, self.history)[index]
-        kept = list(self._kept[index])
-        joined = np.concatenate(kept) if kept else buffer[:0].copy()
-        few = self._few[index]
-        return joined if few is None else joined[-few:]
-
-
 def integrate(engine: Engine, state: State, settings: Settings) -> Run:
     """Integrate from a state; the engine is taken to be valid."""
     kernel = kernel_for(engine)
     P = parameters(engine)
     options = _options(settings, float(state.engine["t"][0]) + settings.duration)
-    records = Records(settings)
+    records = Records(bool(settings.history), settings.keep_cycles)
     snapshot = _snapshot(state)
     code = _drive(kernel, P, state, settings, options, records, snapshot)
-    strokes = records.rows(0)
+    strokes = records.kept_strokes.joined()
     status, message = verdict(engine, code, state, strokes)
     return Run(
         engine=engine,
@@ -209,8 +174,8 @@ def integrate(engine: Engine, state: State, settings: Settings) -> Run:
         message=message,
         duration=float(state.engine["t"][0]),
         strokes=strokes,
-        event_rows=records.rows(1),
-        history_rows=records.rows(2) if settings.history else None,
+        event_rows=records.kept_events.joined(),
+        history_rows=records.finished_history(),
         evaluations=int(state.engine["evaluations"][0]),
         steps=int(state.engine["steps"][0]),
         settings=_described(settings),
@@ -251,7 +216,7 @@ def _drive(
                 snapshot,
                 work,
             )
-            records.empty_buffers()
+            records.make_room()
             if bar is not None:
                 bar.update(float(state.engine["t"][0]) - before)
             if code != layout.BUFFER_FULL:

@@ -143,15 +143,15 @@ def _named(codes: np.ndarray, names: tuple[str, ...]) -> Any:
 
 
 def history_table(rows: np.ndarray) -> pd.DataFrame:
-    """One row per recorded instant."""
+    """One row per recorded instant; shares its memory with the records."""
     import pandas as pd
 
-    columns, units = {}, {}
+    names, units = [], {}
     for name in rows.dtype.names or ():
-        sides = ("",) if rows[name].ndim == 1 else ("_left", "_right")
-        for index, side in enumerate(sides):
-            columns[name + side] = rows[name] if not side else rows[name][:, index]
-            units[name + side] = HISTORY_UNITS[name]
-    frame = pd.DataFrame(columns)
+        sides = ("_left", "_right") if rows.dtype[name].shape else ("",)
+        names += [name + side for side in sides]
+        units.update({name + side: HISTORY_UNITS[name] for side in sides})
+    values = rows.view(np.float64).reshape(len(rows), len(names))
+    frame = pd.DataFrame(values, columns=pd.Index(names), copy=False)
     frame.attrs["units"] = units
     return frame
