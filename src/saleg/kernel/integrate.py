@@ -15,6 +15,7 @@ from saleg.kernel.layout import (
     HEAD,
     HEAD_CONTACT,
     N_ALL,
+    PEAK_PRESSURE,
     STALLED,
     STEP_FAILURE,
     V,
@@ -149,8 +150,11 @@ def run_on(
     stages = tableau[1].shape[0]
     k, y_new, spare = work
     last_step = E.steps + O.max_steps
+    switch(P, E, C, O, y, -1, peaks, strokes, events, filled)  # what is due at the start
     rhs(P, E, C, E.t, y, k[0], O.motored)
     E.evaluations += 1.0
+    if peaks[PEAK_PRESSURE] == 0.0:  # nothing of this stroke has been watched yet
+        watch_point(C, y, k[0], peaks)
     while E.t < O.t_end:
         if E.steps >= last_step or not has_room(O, strokes, events, history, filled):
             return BUFFER_FULL
@@ -164,6 +168,8 @@ def run_on(
         if O.peaks > 0:
             watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare)
         accept(E, O, h, full, end, y, y_new, k, stages)
+        if landed >= 0:
+            watch_point(C, y, k[0], peaks)
         if O.history > 0 and (landed >= 0 or E.steps % O.history < 1.0):
             observe(P, E, C, y, k[0], O.motored, history[filled[2]])
             filled[2] += 1

@@ -1,0 +1,156 @@
+"""The same engine through ``scipy.integrate.solve_ivp``: an independent check of the integrator.
+
+Laws, starts and results are shared; equations, events, switching, masses and energies are written
+once more, in pressure instead of the integrator's own variables, with no other aim than to be
+plain. See :func:`simulate`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.kernel import layout
+from saleg.kernel.plain_rhs import VELOCITY
+from saleg.prepare import State
+from saleg.reference.books import RunningEngine
+from saleg.reference.segments import (
+    Solver,
+    SolverFailure,
+    Tally,
+    advance,
+    jitted_rates,
+    natural_speed,
+    plain_rates,
+    scales,
+)
+from saleg.results import Run
+from saleg.verdict import verdict
+
+__all__ = ["simulate"]
+
+#: Segments without progress in time after which a run is given up.
+MOST_AT_ONE_INSTANT = 20
+
+
+def simulate(
+    engine: Engine,
+    duration: float,
+    *,
+    solver: Any = "DOP853",
+    rtol: float = 1e-10,
+    jitted: bool = False,
+    motored_pressure: bool = False,
+    stall_stroke: float = 0.01,
+) -> Run:
+    """Simulate an engine for some time from its start, with a solver of scipy.
+
+    Parameters
+    ----------
+    engine : Engine
+    duration : float
+        Time to simulate [s].
+    solver : str or OdeSolver class
+        Method of ``solve_ivp``: "DOP853", "RK45", "Radau", "LSODA", "BDF". The explicit ones suit
+        best; a multistep method loses its order at each of some hundred restarts a second and
+        comes to about a hundred times its tolerance (LSODA), or a thousand (BDF).
+    rtol : float
+        Relative tolerance; the absolute one of each component is this times its natural size.
+    jitted : bool
+        Compile the right-hand side; it is the same source.
+    motored_pressure : bool
+        Integrate the motored pressure as well.
+    stall_stroke : float
+        End the run as stalled when a stroke is shorter than this share of the maximum stroke.
+
+    Returns
+    -------
+    Run
+        Without a history.
+
+    Raises
+    ------
+    InvalidEngine
+        Naming every wrong field of the engine.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> from saleg import reference
+    >>> engine = saleg.machines.thesis_base()
+    >>> again, run = reference.simulate(engine, 0.1, jitted=True), saleg.simulate(engine, 0.1)
+    >>> abs(again.performance.power / run.performance.power - 1.0) < 1e-5
+    True
+    """
+    engine.validate()
+    running = RunningEngine.started(engine, motored_pressure)
+    speed = natural_speed(running)
+    method = Solver(
+        method=solver,
+        rtol=rtol,
+        atol=rtol * scales(running, speed),
+        natural_time=0.5 * engine.maximum_stroke / speed,
+        rates=jitted_rates(engine) if jitted else plain_rates(engine),
+    )
+    tally, trouble = Tally(), ""
+    try:
+        code = _run_on(running, float(duration), method, tally, stall_stroke)
+    except SolverFailure as failure:
+        code, trouble = layout.STEP_FAILURE, f" ({failure})"
+    strokes = _rows(running.strokes, layout.STROKE_RECORD)
+    status, message = verdict(engine, code, _final_state(running), strokes)
+    return Run(
+        engine=engine,
+        status=status,
+        message=message + trouble,
+        duration=running.t,
+        strokes=strokes,
+        event_rows=np.array(running.events, layout.EVENT_RECORD),
+        history_rows=None,
+        evaluations=tally.evaluations,
+        steps=tally.steps,
+        settings={"method": getattr(solver, "__name__", solver), "rtol": rtol, "jitted": jitted},
+    )
+
+
+def _run_on(
+    running: RunningEngine, duration: float, solver: Solver, tally: Tally, stall_stroke: float
+) -> int:
+    """Go from event to event; returns why it stopped, as a code of the layout."""
+    running.change_chambers()
+    idle = 0
+    while running.t < duration:
+        before = running.t
+        event = advance(running, duration, solver, tally)
+        idle = 0 if running.t > before else idle + 1
+        if idle > MOST_AT_ONE_INSTANT:
+            raise SolverFailure("no progress in time")
+        if running.machine.direction == 0.0:
+            running.machine.direction = float(np.sign(running.y[VELOCITY]))
+        running.change_chambers()
+        if event is None:
+            continue
+        if event.kind == "head":
+            running.record(layout.EVENT_HEAD_CONTACT, event.side)
+            return layout.HEAD_CONTACT
+        if event.kind == "dead centre":
+            running.turn()
+            running.change_chambers()
+            shortest = stall_stroke * running.engine.maximum_stroke
+            if running.strokes and running.machine.stroke < shortest:
+                return layout.STALLED
+    return layout.END_OF_TIME
+
+
+def _rows(rows: list[np.ndarray], dtype: np.dtype) -> np.ndarray:
+    return np.concatenate(rows) if rows else np.zeros(0, dtype)
+
+
+def _final_state(running: RunningEngine) -> State:
+    """What the verdict asks of a run's end, in the records it reads."""
+    E = np.zeros(1, layout.ENGINE_RECORD)
+    E["t"], E["stroke"] = running.t, running.machine.stroke
+    E["maximum_stroke"] = running.engine.maximum_stroke
+    return State(E, np.zeros(2, layout.CHAMBER_RECORD), running.y, running.peaks)

@@ -1,0 +1,477 @@
+"""Books of the reference solver: what stands in the chambers, and what happens at an event.
+
+Written in terms of energies and masses, independently of the integrator's own switching.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from saleg.engine import Chamber, Cylinder, Engine
+from saleg.kernel import layout
+from saleg.kernel.plain_rhs import (
+    INTEGRAL,
+    MOTORED_PRESSURE,
+    POSITION,
+    PRESSURE,
+    QUADRATURES,
+    VELOCITY,
+    charge_in,
+    gas_in,
+    rates,
+)
+from saleg.laws.arguments import Gas, Motion, Stroke
+from saleg.start import Contents, Initial
+
+#: Distance from a port at which it counts as reached, over the half stroke [-].
+SLACK = 1e-13
+
+
+@dataclass
+class EngineState:
+    """What the right-hand side needs to know of the engine between two events.
+
+    Attributes
+    ----------
+    mass : float
+        Moving mass [kg].
+    motored : float
+        1 to integrate the motored pressures as well.
+    stroke, mean_piston_speed : float
+        Of the latest stroke [m, m/s].
+    load_weight, friction_held : float
+        What the laws of alternator and friction hold.
+    direction : float
+        +1 on the way right, -1 on the way left, 0 before the first movement.
+    """
+
+    mass: float
+    motored: float
+    stroke: float
+    mean_piston_speed: float
+    load_weight: float = 0.0
+    friction_held: float = 0.0
+    direction: float = 0.0
+
+
+@dataclass
+class ChamberState:
+    """What the right-hand side needs to know of a chamber between two events.
+
+    Attributes
+    ----------
+    sign : float
+        +1 if the chamber grows with x, else -1.
+    bore, area, half_stroke : float
+        Geometry [m, m^2, m].
+    wall_temperature, gas_constant : float
+        [K], [J/kg/K].
+    mass, fuel, air, burnt, equivalence_ratio : float
+        The charge [kg]; of all fuel to all air [-].
+    p_closing, T_closing, V_closing : float
+        Its state at port closing [Pa, K, m^3].
+    mode : float
+        Open, closed or burning.
+    armed : float
+        1 if the charge may ignite.
+    t_ignition, duration, heat : float
+        Of the combustion: start and duration [s], heat if all that can burn does [J].
+    """
+
+    sign: float
+    bore: float
+    area: float
+    half_stroke: float
+    wall_temperature: float
+    gas_constant: float
+    mass: float
+    fuel: float
+    air: float
+    burnt: float
+    equivalence_ratio: float
+    p_closing: float
+    T_closing: float
+    V_closing: float
+    mode: float
+    armed: float
+    t_ignition: float = 0.0
+    duration: float = 1.0
+    heat: float = 0.0
+
+
+@dataclass
+class StrokeBooks:
+    """What a chamber adds up from dead centre to dead centre.
+
+    Attributes
+    ----------
+    fresh_fuel_energy, exhaust_energy, exhaust_fuel_energy : float
+        [J].
+    ignition_time, ignition_height : float
+        [s], [m]; -1 and 0 without ignition.
+    """
+
+    fresh_fuel_energy: float = 0.0
+    exhaust_energy: float = 0.0
+    exhaust_fuel_energy: float = 0.0
+    ignition_time: float = -1.0
+    ignition_height: float = 0.0
+
+
+@dataclass
+class RunningEngine:
+    """An engine on its way: state, modes, charges and the books of the stroke.
+
+    Attributes
+    ----------
+    engine : Engine
+    t : float
+        Time [s].
+    y : ndarray
+        State and quadratures, as :mod:`saleg.kernel.plain_rhs` has them.
+    machine : EngineState
+    chambers : list of ChamberState
+    books : list of StrokeBooks
+    x_dead_centre, t_dead_centre : float
+        The last dead centre [m, s]; NaN before the first.
+    earlier_fuel, earlier_speed_squared : float
+        Of the stroke before the present one [J, m^2/s].
+    peaks : ndarray
+        Greatest values of the stroke, in the order of the layout.
+    strokes, events : list of tuple
+        Rows of the results.
+    """
+
+    engine: Engine
+    t: float
+    y: np.ndarray
+    machine: EngineState
+    chambers: list[ChamberState]
+    books: list[StrokeBooks]
+    x_dead_centre: float
+    t_dead_centre: float = 0.0
+    earlier_fuel: float = 0.0
+    earlier_speed_squared: float = 0.0
+    peaks: np.ndarray = field(default_factory=lambda: np.zeros(layout.N_PEAKS))
+    strokes: list[np.ndarray] = field(default_factory=list)
+    events: list[tuple[Any, ...]] = field(default_factory=list)
+
+    @classmethod
+    def started(cls, engine: Engine, motored: bool = False) -> RunningEngine:
+        """Engine at time zero, as its start law has it."""
+        start = engine.start.initial(engine)
+        contents = (start.left, start.right)
+        y = np.zeros(QUADRATURES + layout.N_QUADRATURES)
+        y[POSITION], y[VELOCITY] = start.x, start.v
+        y[PRESSURE : PRESSURE + 2] = [held.pressure for held in contents]
+        y[MOTORED_PRESSURE : MOTORED_PRESSURE + 2] = y[PRESSURE : PRESSURE + 2]
+        chambers = [
+            _chamber_state(chamber, held, sign)
+            for chamber, held, sign in zip(engine.chambers, contents, (1.0, -1.0), strict=True)
+        ]
+        mass = float(engine.translator.mass)
+        machine = EngineState(mass, float(motored), start.stroke, start.mean_piston_speed)
+        books = [StrokeBooks(), StrokeBooks()]
+        x = start.x if start.at_dead_centre else math.nan
+        self = cls(engine, 0.0, y, machine, chambers, books, x)
+        self._hold(_stroke_before(engine, start, self.piston_area))
+        for side, held in enumerate(contents):
+            if held.burning:
+                self.ignite(side)
+        acceleration = self.rates()[VELOCITY]
+        machine.direction = float(np.sign(start.v) or np.sign(acceleration))
+        return self
+
+    @property
+    def piston_area(self) -> float:
+        """Mean area of the two pistons [m^2]."""
+        return 0.5 * (self.chambers[0].area + self.chambers[1].area)
+
+    def rates(self) -> list[float]:
+        """Rates of the present state and of all quadratures."""
+        dy = [0.0] * len(self.y)
+        rates(self.engine, self.machine, self.chambers, self.t, self.y.tolist(), dy)
+        return dy
+
+    def gas(self, side: int) -> Gas:
+        """Gas in a closed chamber, now."""
+        return gas_in(self.machine, self.chambers, side, self.y.tolist())
+
+    def height(self, side: int) -> float:
+        """Clearance between crown and head [m]."""
+        c = self.chambers[side]
+        return c.half_stroke + c.sign * float(self.y[POSITION])
+
+    def beyond_port(self, side: int) -> float:
+        """How far the crown is beyond its ports [m]; minus infinity without ports."""
+        chamber = self.engine.chambers[side]
+        if not isinstance(chamber, Cylinder):
+            return -math.inf
+        return self.height(side) - chamber.port_closing
+
+    def temperature(self, side: int) -> float:
+        """Temperature [K]; that of the intake while the ports are open."""
+        chamber = self.engine.chambers[side]
+        if self.chambers[side].mode == layout.OPEN:
+            assert isinstance(chamber, Cylinder)
+            return chamber.intake.temperature
+        return self.gas(side).T
+
+    def internal_energy(self, side: int) -> float:
+        """Internal energy of the charge [J]."""
+        law = self.engine.chambers[side].gas_properties  # type: ignore[attr-defined]
+        return float(self.chambers[side].mass * law.internal_energy(self.temperature(side)))
+
+    def burnt_so_far(self, side: int) -> float:
+        """Fuel burnt since ignition [kg]."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        if c.mode != layout.BURNING:
+            return 0.0
+        assert isinstance(chamber, Cylinder)
+        u = min((self.t - c.t_ignition) / c.duration, 1.0)
+        share = chamber.heat_release.burnt_fraction(u)
+        return share * c.heat / chamber.fuel.lower_heating_value
+
+    def record(self, kind: int, side: int) -> None:
+        """Append a row to the table of events."""
+        x, v, p = (float(self.y[n]) for n in (POSITION, VELOCITY, PRESSURE + side))
+        self.events.append((self.t, kind, side, x, v, p, self.temperature(side)))
+
+    # Changes of a chamber.
+
+    def change_chambers(self) -> None:
+        """Carry out all changes that are due, one after the other."""
+        for side in (0, 1):
+            while self._change(side):
+                pass
+
+    def _change(self, side: int) -> bool:
+        """Carry out one change that is due; whether there was one."""
+        due = {
+            layout.EVENT_END_OF_COMBUSTION: (self._has_burnt, self.end_combustion),
+            layout.EVENT_MISFIRE: (self._has_misfired, self.misfire),
+            layout.EVENT_IGNITION: (self._is_lit, self.ignite),
+            layout.EVENT_PORT_CLOSING: (self._is_closing, self.close_ports),
+            layout.EVENT_PORT_OPENING: (self._is_opening, self.open_ports),
+        }
+        for kind, (is_due, change) in due.items():
+            if is_due(side):
+                self.record(kind, side)
+                change(side)
+                return True
+        return False
+
+    def is_expanding(self, side: int) -> bool:
+        """Whether a chamber grows in the present stroke."""
+        return self.chambers[side].sign * self.machine.direction > 0.0
+
+    def _has_burnt(self, side: int) -> bool:
+        c = self.chambers[side]
+        return c.mode == layout.BURNING and self.t >= c.t_ignition + c.duration
+
+    def _has_misfired(self, side: int) -> bool:
+        return self.chambers[side].armed == 1.0 and self.is_expanding(side)
+
+    def _is_lit(self, side: int) -> bool:
+        return self.chambers[side].armed == 1.0 and bool(self.y[INTEGRAL + side] >= 1.0)
+
+    def _is_closing(self, side: int) -> bool:
+        reached = self.beyond_port(side) <= SLACK * self.chambers[side].half_stroke
+        inward = self.machine.direction != 0.0 and not self.is_expanding(side)
+        return self.chambers[side].mode == layout.OPEN and inward and reached
+
+    def _is_opening(self, side: int) -> bool:
+        reached = self.beyond_port(side) >= -SLACK * self.chambers[side].half_stroke
+        return self.chambers[side].mode != layout.OPEN and self.is_expanding(side) and reached
+
+    def misfire(self, side: int) -> None:
+        """The piston has turned before the charge lit: it no longer may."""
+        self.chambers[side].armed = 0.0
+        self.y[INTEGRAL + side] = 0.0
+
+    def ignite(self, side: int) -> None:
+        """Begin to release the heat of what fuel and air can burn."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, Cylinder)
+        c.duration = chamber.heat_release.duration(
+            self.gas(side), charge_in(self.machine, self.chambers, side)
+        )
+        burnable = min(c.fuel, c.air / chamber.fuel.air_fuel_ratio)
+        c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
+        c.mode, c.armed, c.t_ignition = layout.BURNING, 0.0, self.t
+        self.books[side].ignition_time = self.t
+        self.books[side].ignition_height = self.height(side)
+
+    def end_combustion(self, side: int) -> None:
+        """Turn fuel and stoichiometric air into burnt gas, as far as they have burnt."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, Cylinder)
+        fuel = self.burnt_so_far(side)
+        air = chamber.fuel.air_fuel_ratio * fuel
+        c.fuel, c.air, c.burnt = c.fuel - fuel, c.air - air, c.burnt + fuel + air
+        c.mode = layout.CLOSED
+
+    def open_ports(self, side: int) -> None:
+        """Pressure and temperature become those of the intake."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, Cylinder)
+        before = self.internal_energy(side)
+        if c.mode == layout.BURNING:
+            self.end_combustion(side)
+        c.mode, c.armed = layout.OPEN, 0.0
+        self.y[INTEGRAL + side] = 0.0
+        self.y[[PRESSURE + side, MOTORED_PRESSURE + side]] = chamber.intake.pressure
+        self.books[side].exhaust_energy += before - self.internal_energy(side)
+
+    def close_ports(self, side: int) -> None:
+        """Compose the fresh charge from what was retained and what is metered now."""
+        c, chamber, books = self.chambers[side], self.engine.chambers[side], self.books[side]
+        assert isinstance(chamber, Cylinder)
+        before, fuel_before = self.internal_energy(side), c.fuel
+        p, T = chamber.intake.pressure, chamber.intake.temperature
+        volume = c.area * self.height(side)
+        ratio = chamber.fuel.air_fuel_ratio
+        c.mass = p * volume / (c.gas_constant * T)
+        c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
+            c.mass, c.fuel, c.air, c.burnt, chamber.equivalence_ratio, ratio
+        )
+        c.equivalence_ratio = ratio * c.fuel / c.air if c.fuel > 0.0 else 0.0
+        c.p_closing, c.T_closing, c.V_closing = p, T, volume
+        c.mode, c.armed = layout.CLOSED, float(c.fuel > 0.0)
+        self.y[INTEGRAL + side] = 0.0
+        self.y[[PRESSURE + side, MOTORED_PRESSURE + side]] = p
+        exhausted = fuel_before + fresh - c.fuel
+        books.fresh_fuel_energy += fresh * chamber.fuel.lower_heating_value
+        books.exhaust_fuel_energy += exhausted * chamber.fuel.lower_heating_value
+        books.exhaust_energy += before - self.internal_energy(side)
+
+    # Dead centres.
+
+    def turn(self) -> None:
+        """Dead centre: close the books of the stroke, let the regulators act, turn around."""
+        if math.isfinite(self.x_dead_centre) and self.t > self.t_dead_centre:
+            self.strokes.append(self._stroke_row())
+            self._regulate()
+        self.machine.direction = -self.machine.direction
+        self.y[QUADRATURES:] = 0.0
+        self.peaks[:] = 0.0
+        self.books = [StrokeBooks(), StrokeBooks()]
+        self.x_dead_centre, self.t_dead_centre = float(self.y[POSITION]), self.t
+        self.record(layout.EVENT_DEAD_CENTRE, 0 if self.machine.direction > 0.0 else 1)
+
+    def _regulate(self) -> None:
+        """Hand the finished stroke to the laws that act at a dead centre."""
+        fuel = sum(books.fresh_fuel_energy for books in self.books)
+        squared = float(self.y[QUADRATURES + layout.SPEED_SQUARED])
+        stroke = Stroke(
+            length=abs(float(self.y[POSITION]) - self.x_dead_centre),
+            duration=self.t - self.t_dead_centre,
+            maximum=self.engine.maximum_stroke,
+            half_maximum=0.5 * self.engine.maximum_stroke,
+            piston_area=self.piston_area,
+            fuel_energy=fuel + self.earlier_fuel,
+            speed_squared=squared + self.earlier_speed_squared,
+        )
+        self.earlier_fuel, self.earlier_speed_squared = fuel, squared
+        self.machine.stroke = stroke.length
+        self.machine.mean_piston_speed = stroke.length / stroke.duration
+        self._hold(stroke, self.machine.load_weight, self.machine.friction_held)
+
+    def _hold(self, stroke: Stroke, load: float = -1.0, friction: float = -1.0) -> None:
+        """Let alternator and friction choose what they hold until the next dead centre."""
+        self.machine.load_weight = self.engine.alternator.at_dead_centre(load, stroke)
+        self.machine.friction_held = self.engine.friction.at_dead_centre(friction, stroke)
+
+    def _stroke_row(self) -> np.ndarray:
+        """Row of the stroke that ends here."""
+        row = np.zeros(1, layout.STROKE_RECORD)
+        x = float(self.y[POSITION])
+        motion = Motion(self.t, x, 0.0, self.machine.direction)
+        row["t"], row["duration"] = self.t, self.t - self.t_dead_centre
+        row["x_start"], row["x_end"] = self.x_dead_centre, x
+        for name in ("direction", "load_weight", "friction_held"):
+            row[name] = getattr(self.machine, name)
+        for name in _TOTALS:
+            row[name] = self.y[QUADRATURES + getattr(layout, name.upper())]
+        for name in _TOTALS_PER_SIDE:
+            first = QUADRATURES + getattr(layout, name.upper())
+            row[name] = self.y[first : first + 2]
+        for name in ("pressure", "temperature", "pressure_rise"):
+            first = getattr(layout, f"PEAK_{name.upper()}")
+            row[f"peak_{name}"] = self.peaks[first : first + 2]
+        row["peak_velocity"] = self.peaks[layout.PEAK_VELOCITY]
+        row["peak_acceleration"] = self.peaks[layout.PEAK_ACCELERATION]
+        row["spring_energy"] = self.engine.springs.energy(motion)
+        for side in (0, 1):
+            for name, value in vars(self.books[side]).items():
+                row[name][0, side] = value
+            row["charge_mass"][0, side] = self.chambers[side].mass
+            row["internal_energy"][0, side] = self.internal_energy(side)
+            row["fuel_energy"][0, side] = self._fuel_energy(side)
+        return row
+
+    def _fuel_energy(self, side: int) -> float:
+        """Lower heating value of the unburnt fuel in a chamber [J]."""
+        chamber = self.engine.chambers[side]
+        if not isinstance(chamber, Cylinder):
+            return 0.0
+        left = self.chambers[side].fuel - self.burnt_so_far(side)
+        return left * chamber.fuel.lower_heating_value
+
+
+_TOTALS = (
+    "alternator_work",
+    "electrical_energy",
+    "electrical_squared",
+    "alternator_impulse",
+    "friction_work",
+    "speed_squared",
+)
+_TOTALS_PER_SIDE = ("heat_released", "heat_lost", "gas_work", "port_work")
+
+
+def _chamber_state(chamber: Chamber, held: Contents, sign: float) -> ChamberState:
+    """Chamber with the contents its start law gave it."""
+    area = math.pi * chamber.bore**2 / 4.0
+    if isinstance(chamber, Cylinder):
+        p, T, full = chamber.intake.pressure, chamber.intake.temperature, chamber.port_closing
+        ratio = chamber.fuel.air_fuel_ratio * held.fuel / held.air if held.fuel > 0.0 else 0.0
+    else:
+        p, T, full = chamber.pressure, chamber.temperature, chamber.half_stroke  # type: ignore[attr-defined]
+        ratio = 0.0
+    return ChamberState(
+        sign=sign,
+        bore=chamber.bore,
+        area=area,
+        half_stroke=chamber.half_stroke,
+        wall_temperature=chamber.wall_temperature,
+        gas_constant=chamber.gas_properties.gas_constant,  # type: ignore[attr-defined]
+        mass=held.mass,
+        fuel=held.fuel,
+        air=held.air,
+        burnt=held.burnt,
+        equivalence_ratio=ratio,
+        p_closing=p,
+        T_closing=T,
+        V_closing=area * full,
+        mode=layout.OPEN if held.is_open else layout.CLOSED,
+        armed=float(held.armed and held.fuel > 0.0),
+    )
+
+
+def _stroke_before(engine: Engine, start: Initial, piston_area: float) -> Stroke:
+    """The stroke a start law takes to have passed before time zero."""
+    speed = start.mean_piston_speed
+    return Stroke(
+        length=start.stroke,
+        duration=start.stroke / speed if speed > 0.0 else math.inf,
+        maximum=engine.maximum_stroke,
+        half_maximum=0.5 * engine.maximum_stroke,
+        piston_area=piston_area,
+        fuel_energy=0.0,
+        speed_squared=0.0,
+    )
