@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from saleg.engine import Cylinder, Engine
+from saleg.indicators import adverse_work, repeatability, timing
 
 nan = math.nan
 
@@ -43,6 +44,27 @@ class Performance:
         Mass of the charge of one cylinder [kg].
     moving_mass : float
         Mass of the translator [kg].
+    peak_temperature : float
+        Greatest temperature in either chamber [K].
+    peak_pressure_rise : float
+        Greatest rate of pressure rise in either chamber [Pa/s].
+    indicated_work : float
+        Work of the gas on both pistons, open ports included [J].
+    indicated_efficiency : float
+        Indicated work over the energy of the fresh fuel [-].
+    adverse_work : float
+        Work lost in the inverted part of the p-V loops around dead centre [J]; NaN where the
+        history of the cycle is not known.
+    start_of_combustion : float
+        Time of the start of combustion before dead centre [s].
+    start_of_combustion_position : float
+        Distance of the piston from its dead centre at that moment [m].
+    burn_centre : float
+        Time after dead centre at which half of the heat is released [s].
+    stability : float
+        Change of the left dead centre over the cycle, in half strokes [-] (Eq. 68).
+    cr_change : float
+        Mean change of the compression ratio per cycle over the last ten cycles [-].
     """
 
     stroke: float
@@ -58,6 +80,16 @@ class Performance:
     fuel_energy_per_cycle: float
     charge_mass: float
     moving_mass: float
+    peak_temperature: float
+    peak_pressure_rise: float
+    indicated_work: float
+    indicated_efficiency: float
+    adverse_work: float
+    start_of_combustion: float
+    start_of_combustion_position: float
+    burn_centre: float
+    stability: float
+    cr_change: float
 
     def to_dict(self) -> dict[str, float]:
         """All figures by name."""
@@ -73,13 +105,33 @@ class Performance:
         return cls(**values)
 
     @classmethod
-    def of_cycle(cls, engine: Engine, strokes: np.ndarray) -> Performance:
-        """Performance over the two strokes of a cycle (rows of ``STROKE_RECORD``)."""
+    def of_cycle(
+        cls,
+        engine: Engine,
+        strokes: np.ndarray,
+        run: np.ndarray,
+        history: np.ndarray | None = None,
+    ) -> Performance:
+        """Performance over a cycle.
+
+        Parameters
+        ----------
+        engine : Engine
+        strokes : ndarray of STROKE_RECORD, shape (2,)
+            The cycle, with its peaks located.
+        run : ndarray of STROKE_RECORD
+            All strokes up to the end of the cycle.
+        history : ndarray of HISTORY_RECORD, optional
+            The cycle's history.
+        """
         period = float(strokes["duration"].sum())
         ends = np.concatenate([strokes["x_start"], strokes["x_end"]])
         power = float(strokes["electrical_energy"].sum()) / period
         fuel = float(strokes["fresh_fuel_energy"].sum())
         cylinders = [isinstance(chamber, Cylinder) for chamber in engine.chambers]
+        work = float(strokes["gas_work"].sum())
+        burn = timing(engine, strokes)
+        stability, cr_change = repeatability(engine, run)
         masses = strokes["charge_mass"][-1][cylinders] if any(cylinders) else np.array([nan])
         return cls(
             stroke=float(np.abs(strokes["x_end"] - strokes["x_start"]).mean()),
@@ -97,6 +149,16 @@ class Performance:
             fuel_energy_per_cycle=fuel,
             charge_mass=float(masses.mean()),
             moving_mass=float(engine.translator.mass),
+            peak_temperature=float(strokes["peak_temperature"].max()),
+            peak_pressure_rise=float(strokes["peak_pressure_rise"].max()),
+            indicated_work=work,
+            indicated_efficiency=work / fuel if fuel > 0.0 else nan,
+            adverse_work=nan if history is None else adverse_work(engine, history),
+            start_of_combustion=burn.start,
+            start_of_combustion_position=burn.start_position,
+            burn_centre=burn.centre,
+            stability=stability,
+            cr_change=cr_change,
         )
 
 

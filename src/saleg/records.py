@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from saleg.indicators import CR_CYCLES
 from saleg.kernel import layout
 
 #: Rows of history by which its buffer grows.
@@ -42,11 +43,11 @@ class Records:
     history : bool
         Whether there is a history to record.
     keep_cycles : int or None
-        Keep only about the last so many cycles.
+        Keep only about the last so many cycles, though no fewer than the figures look back on.
     """
 
     def __init__(self, history: bool, keep_cycles: int | None):
-        last = None if keep_cycles is None else 2 * keep_cycles + 4
+        last = None if keep_cycles is None else 2 * max(keep_cycles, CR_CYCLES + 1) + 4
         events = None if last is None else EVENTS_PER_STROKE * last
         self.strokes = np.zeros(STROKE_ROWS, layout.STROKE_RECORD)
         self.events = np.zeros(EVENTS_PER_STROKE * STROKE_ROWS, layout.EVENT_RECORD)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from saleg.performance import Performance
@@ -23,6 +24,14 @@ FIGURES = (
     ("peak_velocity", "peak velocity", 1.0, "m/s", 3),
     ("fuel_energy_per_cycle", "fuel energy per cycle", 1.0, "J", 1),
     ("charge_mass", "charge mass", 1e3, "g", 4),
+    ("peak_temperature", "peak temperature", 1.0, "K", 1),
+    ("peak_pressure_rise", "peak pressure rise", 1e-8, "bar/ms", 2),
+    ("indicated_work", "indicated work per cycle", 1.0, "J", 1),
+    ("indicated_efficiency", "indicated efficiency", 1e2, "%", 2),
+    ("adverse_work", "adverse work per cycle", 1.0, "J", 3),
+    ("start_of_combustion", "start of combustion", 1e3, "ms before dead centre", 3),
+    ("start_of_combustion_position", "  at distance", 1e3, "mm", 2),
+    ("burn_centre", "burn centre", 1e3, "ms after dead centre", 3),
     ("moving_mass", "moving mass", 1.0, "kg", 3),
 )
 
@@ -32,7 +41,8 @@ def describe_performance(performance: Performance) -> str:
     lines = []
     for name, label, factor, unit, digits in FIGURES:
         value = getattr(performance, name) * factor
-        lines.append(f"  {label:<22} {value:>10.{digits}f} {'' if unit == '-' else unit}".rstrip())
+        shown = "-" if math.isnan(value) else f"{value:.{digits}f}"
+        lines.append(f"  {label:<22} {shown:>10} {'' if unit == '-' else unit}".rstrip())
     return "\n".join(lines)
 
 

@@ -90,11 +90,14 @@ class Run:
         """Figures of the last full cycle; zeros and NaN for a run that stalled."""
         if self.status in (Status.STALLED, Status.INVALID):
             return Performance.of_nothing(self.engine)
-        best = self.orbit or self
-        strokes = best.last_cycle_strokes
-        if strokes is None:
+        start = last_cycle_start(self.strokes)
+        if start is None:
             return Performance.of_nothing(self.engine)
-        return Performance.of_cycle(self.engine, strokes)
+        before = self.strokes[: start + 2]
+        if self.orbit is None:
+            return Performance.of_cycle(self.engine, before[-2:], before)
+        orbit = self.orbit
+        return Performance.of_cycle(self.engine, orbit.strokes, before, orbit.history_rows)
 
     @cached_property
     def energy(self) -> EnergyBalance | None:

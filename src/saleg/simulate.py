@@ -25,6 +25,8 @@ from saleg.verdict import verdict
 STEPS_PER_CALL = 200_000
 DEFAULT_TOLERANCE = 1e-8
 DEFAULT_STEP = 5e-6
+#: Instants recorded within each step of the last cycle, so that curves through them are smooth.
+ORBIT_POINTS = 7
 
 
 class SettingsError(SalegError, ValueError):
@@ -45,6 +47,7 @@ class Settings:
     stall_stroke: float = 0.01
     keep_cycles: int | None = None
     peaks: int = 1
+    dense: int = 0
     last_stroke: float = math.inf
 
 
@@ -85,7 +88,7 @@ def simulate(
         End the run as stalled when a stroke is shorter than this share of the maximum stroke;
         0 never does.
     keep_cycles : int, optional
-        Keep the records of only about the last so many cycles; all unless given.
+        Keep the records of only about the last so many cycles, at least eleven; all unless given.
 
     Returns
     -------
@@ -229,6 +232,7 @@ def _options(settings: Settings, t_end: float) -> np.ndarray:
     options["motored"] = settings.motored_pressure
     options["peaks"] = settings.peaks
     options["history"] = settings.history
+    options["dense"] = settings.dense
     options["events"] = 1
     options["max_steps"] = STEPS_PER_CALL
     options["t_end"] = t_end
@@ -272,7 +276,13 @@ def _replay(
         period = float(snapshot[0]["t"][0] - snapshot[0]["t"][1])
         last = float(E["strokes"]) + 2.0
         asked = replace(
-            settings, duration=1.5 * period, last_stroke=last, history=1, peaks=2, keep_cycles=None
+            settings,
+            duration=1.5 * period,
+            last_stroke=last,
+            history=1,
+            dense=ORBIT_POINTS,
+            peaks=2,
+            keep_cycles=None,
         )
         return integrate(engine, state, asked)
 

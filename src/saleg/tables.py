@@ -56,6 +56,7 @@ HISTORY_UNITS = {
     "p": "Pa",
     "T": "K",
     "V": "m^3",
+    "p_rate": "Pa/s",
     "p_motored": "Pa",
     "heat_release": "W",
     "heat_loss": "W",

@@ -61,7 +61,7 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     if change is not None and change < STEADY:
         return Status.STEADY, f"steady at t = {t:.6g} s: {_PER_CYCLE.format(change)}"
     if change is None:
-        return Status.COMPLETED, f"ran to t = {t:.6g} s, too few cycles to tell whether it is steady"
+        return Status.COMPLETED, f"ran to t = {t:.6g} s, too few cycles to call it steady"
     return Status.COMPLETED, f"ran to t = {t:.6g} s, not steady yet: {_PER_CYCLE.format(change)}"
 
 

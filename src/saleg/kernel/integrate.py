@@ -127,13 +127,30 @@ def accept(E, O, h, full, end, y, y_new, k, stages):
         k[0, n] = k[stages, n]
 
 
+@compiled
+def observe_within(P, E, C, O, tableau, h, y, k, spare, history, filled):
+    """Record instants within a step, each reached by a shorter step of the same method."""
+    stages = tableau[1].shape[0]
+    _, _, spare_k, inner = spare
+    t = E.t
+    for i in range(1, O.dense + 1):
+        part = h * i / (O.dense + 1.0)
+        for n in range(N_ALL):
+            spare_k[0, n] = k[0, n]
+        take_step(P, E, C, tableau, t, part, y, spare_k, inner, O.motored)
+        E.t = t + part
+        observe(P, E, C, inner, spare_k[stages], O.motored, history[filled[2]])
+        filled[2] += 1
+    E.t = t
+
+
 @inline
 def has_room(O, strokes, events, history, filled):
     """Whether one more step can be recorded."""
     return (
         strokes.shape[0] - filled[0] >= 1
         and (O.events == 0 or events.shape[0] - filled[1] >= 12)
-        and (O.history == 0 or history.shape[0] - filled[2] >= 2)
+        and (O.history == 0 or history.shape[0] - filled[2] >= 2 + O.dense)
     )
 
 
@@ -167,6 +184,8 @@ def run_on(
         h, landed = advance_to_event(P, E, C, O, tableau, full, y, k, y_new)
         if O.peaks > 0:
             watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare)
+        if O.dense > 0:
+            observe_within(P, E, C, O, tableau, h, y, k, spare, history, filled)
         accept(E, O, h, full, end, y, y_new, k, stages)
         if landed >= 0:
             watch_point(C, y, k[0], peaks)

@@ -186,6 +186,7 @@ STROKE_RECORD = np.dtype(
             "charge_mass",
             "ignition_time",
             "ignition_height",
+            "combustion_duration",
         )
     ]
 )
@@ -201,7 +202,17 @@ HISTORY_RECORD = np.dtype(
     [(name, np.float64) for name in ("t", "x", "v", "a")]
     + [
         (name, np.float64, (2,))
-        for name in ("p", "T", "V", "p_motored", "heat_release", "heat_loss", "ignition", "mode")
+        for name in (
+            "p",
+            "T",
+            "V",
+            "p_rate",
+            "p_motored",
+            "heat_release",
+            "heat_loss",
+            "ignition",
+            "mode",
+        )
     ]
     + [
         (name, np.float64)
@@ -222,6 +233,7 @@ OPTIONS_RECORD = np.dtype(
         ("motored", np.int64),
         ("peaks", np.int64),
         ("history", np.int64),
+        ("dense", np.int64),
         ("events", np.int64),
         ("max_steps", np.int64),
         ("t_end", np.float64),

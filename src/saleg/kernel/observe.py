@@ -14,6 +14,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
+from saleg.kernel.peaks import pressure_rate
 from saleg.kernel.rhs import gas_of, height_of
 from saleg.kernel.slots import alternator_force, friction_force, springs_force
 from saleg.laws.arguments import Motion
@@ -39,6 +40,7 @@ def observe(P, E, C, y, dy, motored, row):
         row.p[side] = p
         row.T[side] = T
         row.V[side] = C[side].area * height_of(C, side, y[X])
+        row.p_rate[side] = p * pressure_rate(C, side, y, dy)
         row.p_motored[side] = motored_pressure(E, C, side, y, motored)
         row.heat_release[side] = dy[N_STATE + HEAT_RELEASED + side]
         row.heat_loss[side] = dy[N_STATE + HEAT_LOST + side]

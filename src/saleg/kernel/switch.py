@@ -189,6 +189,7 @@ def write_stroke(P, E, C, y, peaks, row):
         row.exhaust_fuel_energy[side] = c.exhaust_fuel_energy
         row.ignition_time[side] = c.ignition_time
         row.ignition_height[side] = c.ignition_height
+        row.combustion_duration[side] = c.duration if c.ignition_time >= 0.0 else 0.0
         row.charge_mass[side] = c.mass
         row.internal_energy[side] = internal_energy(P, C, side, y)
         burnt = burnt_mass(P, C, side, E.t) if c.mode == BURNING else 0.0

@@ -111,8 +111,8 @@ class StrokeBooks:
     ----------
     fresh_fuel_energy, exhaust_energy, exhaust_fuel_energy : float
         [J].
-    ignition_time, ignition_height : float
-        [s], [m]; -1 and 0 without ignition.
+    ignition_time, ignition_height, combustion_duration : float
+        [s], [m], [s]; -1, 0 and 0 without ignition.
     """
 
     fresh_fuel_energy: float = 0.0
@@ -120,6 +120,7 @@ class StrokeBooks:
     exhaust_fuel_energy: float = 0.0
     ignition_time: float = -1.0
     ignition_height: float = 0.0
+    combustion_duration: float = 0.0
 
 
 @dataclass
@@ -305,6 +306,7 @@ class RunningEngine:
         c.mode, c.armed, c.t_ignition = layout.BURNING, 0.0, self.t
         self.books[side].ignition_time = self.t
         self.books[side].ignition_height = self.height(side)
+        self.books[side].combustion_duration = c.duration
 
     def end_combustion(self, side: int) -> None:
         """Turn fuel and stoichiometric air into burnt gas, as far as they have burnt."""

@@ -1,0 +1,163 @@
+"""Figures of a cycle that take more than a sum: combustion timing, adverse work, repeatability."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from saleg.engine import Cylinder, Engine
+
+if TYPE_CHECKING:
+    from saleg.laws import HeatRelease
+
+#: Points of the quadrature of adverse work, over the square root of the distance from dead centre.
+ADVERSE_POINTS = 2001
+#: Cycles over which the mean change of the compression ratio is taken.
+CR_CYCLES = 10
+
+
+class Timing(NamedTuple):
+    """Combustion timing, the mean of the cylinders that fired.
+
+    Attributes
+    ----------
+    start : float
+        Time of the start of combustion before dead centre [s].
+    start_position : float
+        Distance of the piston from its dead centre at that moment [m].
+    centre : float
+        Time after dead centre at which half of the heat is released [s], negative before it.
+    """
+
+    start: float
+    start_position: float
+    centre: float
+
+
+def timing(engine: Engine, strokes: np.ndarray) -> Timing:
+    """Combustion timing over the strokes of a cycle; NaN without combustion."""
+    found = []
+    for row in strokes:
+        side = 0 if row["direction"] < 0.0 else 1
+        chamber = engine.chambers[side]
+        if row["ignition_time"][side] < 0.0 or not isinstance(chamber, Cylinder):
+            continue
+        before = float(row["t"] - row["ignition_time"][side])
+        sign = 1.0 if side == 0 else -1.0
+        height = chamber.half_stroke + sign * float(row["x_end"])
+        half = half_burnt(chamber.heat_release) * float(row["combustion_duration"][side])
+        found.append((before, float(row["ignition_height"][side]) - height, half - before))
+    if not found:
+        return Timing(math.nan, math.nan, math.nan)
+    return Timing(*(float(value) for value in np.mean(found, axis=0)))
+
+
+def half_burnt(law: HeatRelease) -> float:
+    """Share of the combustion duration after which half of the released heat is out [-]."""
+    half = 0.5 * law.burnt_fraction(1.0)
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if law.burnt_fraction(middle) < half:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+def adverse_work(engine: Engine, rows: np.ndarray) -> float:
+    """Work of the inverted part of both p-V loops, where expansion runs below compression [J].
+
+    Around dead centre a charge that burns early and cools pushes harder on the way in than on the
+    way out. Both branches are interpolated in the square root of the distance from dead centre, in
+    which they are smooth.
+
+    Parameters
+    ----------
+    engine : Engine
+    rows : ndarray of HISTORY_RECORD
+        History of one cycle from left dead centre to left dead centre.
+
+    Returns
+    -------
+    float
+    """
+    turn = int(np.argmax(rows["x"]))
+    total = 0.0
+    for side, chamber in enumerate(engine.chambers):
+        if not isinstance(chamber, Cylinder):
+            continue
+        to_right, to_left = rows[: turn + 1], rows[turn:]
+        inward, outward = (to_right, to_left) if side == 1 else (to_left, to_right)
+        total += _inverted_work(chamber, inward[::-1], outward, side)
+    return total
+
+
+def _inverted_work(chamber: Cylinder, inward: np.ndarray, outward: np.ndarray, side: int) -> float:
+    """Integral of compression over expansion pressure, where it is higher [J].
+
+    Both branches begin at dead centre and go outward.
+    """
+    nearest = max(float(_height(chamber, rows, side)[0]) for rows in (inward, outward))
+    compression = _Branch(chamber, inward, side, nearest, -1.0)
+    expansion = _Branch(chamber, outward, side, nearest, 1.0)
+    grid = np.linspace(0.0, min(compression.w[-1], expansion.w[-1]), ADVERSE_POINTS)
+    excess = np.maximum(compression(grid) - expansion(grid), 0.0)
+    area = math.pi * chamber.bore**2 / 4.0
+    return float(np.trapezoid(excess * area * 2.0 * grid, grid))
+
+
+def _height(chamber: Cylinder, rows: np.ndarray, side: int) -> np.ndarray:
+    return chamber.half_stroke + (1.0 if side == 0 else -1.0) * rows["x"]
+
+
+class _Branch:
+    """Pressure of the closed chamber along one branch, by cubic pieces in w = sqrt(h - h_tdc)."""
+
+    def __init__(self, chamber: Cylinder, rows: np.ndarray, side: int, nearest: float, time: float):
+        height = _height(chamber, rows, side)
+        rows = rows[(rows["mode"][:, side] > 0) & (height >= nearest - 1e-12)]
+        self.w = np.sqrt(np.maximum(_height(chamber, rows, side) - nearest, 0.0))
+        self.p = rows["p"][:, side]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            speed = np.abs(rows["v"]) / (2.0 * self.w)
+        speed = np.where(self.w > 1e-7, speed, np.sqrt(0.5 * np.abs(rows["a"])))
+        self.slope = rows["p_rate"][:, side] / (time * speed)
+
+    def __call__(self, w: np.ndarray) -> np.ndarray:
+        i = np.clip(np.searchsorted(self.w, w, side="right") - 1, 0, len(self.w) - 2)
+        length = self.w[i + 1] - self.w[i]
+        u = np.clip((w - self.w[i]) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
+        rest = 1.0 - u
+        start = (1.0 + 2.0 * u) * self.p[i] + u * length * self.slope[i]
+        end = (3.0 - 2.0 * u) * self.p[i + 1] - rest * length * self.slope[i + 1]
+        return rest * rest * start + u * u * end
+
+
+def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:
+    """How well the last cycle repeats the ones before it, as the thesis measures it.
+
+    Parameters
+    ----------
+    engine : Engine
+    strokes : ndarray of STROKE_RECORD
+        Strokes of a run up to the end of its last full cycle.
+
+    Returns
+    -------
+    stability : float
+        Change of the left dead centre over the cycle, in half strokes [-] (Eq. 68).
+    cr_change : float
+        Mean change of the compression ratio from cycle to cycle over the last ten [-]; NaN for a
+        single cycle.
+    """
+    from saleg.performance import compression_ratio
+
+    half = 0.5 * engine.maximum_stroke
+    stability = abs(float(strokes["x_end"][-1] - strokes["x_start"][-2])) / half
+    ends = strokes[len(strokes) % 2 :][-2 * (CR_CYCLES + 1) :]
+    ratios = compression_ratio(engine, ends["x_end"][1::2], ends["x_end"][::2])
+    changes = np.abs(np.diff(ratios))
+    return stability, float(changes.mean()) if len(changes) else math.nan
