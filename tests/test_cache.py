@@ -1,4 +1,4 @@
-"""The cache of compiled kernels: it must hit, must not be stale, must not mix, must not be trusted."""
+"""The cache of compiled kernels must hit, and never be stale, mixed up or trusted blindly."""
 
 import json
 import os

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from helpers import area, bounce_engine, cycle_figures, strokes_from_start
 
 import saleg
+from helpers import area, bounce_engine, cycle_figures, strokes_from_start
 from saleg.kernel.tableaus import ADAPTIVE, FIXED_STEP
 from saleg.performance import EnergyBalance
 from saleg.start import CompressedCharge, MidpointVelocity

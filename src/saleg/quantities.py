@@ -58,13 +58,15 @@ class Limits(NamedTuple):
     open_high: bool
 
     def __str__(self) -> str:
-        if math.isinf(self.low) and math.isinf(self.high):
-            return "any finite number"
         above = f"{'>' if self.open_low else '>='} {self.low:g}"
         below = f"{'<' if self.open_high else '<='} {self.high:g}"
         return " and ".join(
             text for text, end in ((above, self.low), (below, self.high)) if not math.isinf(end)
         )
+
+    def wanted(self, kind: str) -> str:
+        """What a wrong value should have been."""
+        return f"must be {kind} {self}".rstrip()
 
     def admits(self, value: float) -> bool:
         """Whether a finite number lies in the range."""
@@ -121,9 +123,9 @@ def problems(node: Any, path: str = "") -> list[Problem]:
         limits = field.metadata.get("limits")
         if limits is not None:
             if not is_number(value):
-                found.append(Problem(where, value, limits.unit, "must be a number"))
+                found.append(Problem(where, value, limits.unit, limits.wanted("a number")))
             elif not math.isfinite(value) or not limits.admits(float(value)):
-                found.append(Problem(where, value, limits.unit, f"must be {limits}"))
+                found.append(Problem(where, value, limits.unit, limits.wanted("a finite number")))
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             found.extend(problems(value, where))
     return found

@@ -42,7 +42,7 @@ def describe_performance(performance: Performance) -> str:
     for name, label, factor, unit, digits in FIGURES:
         value = getattr(performance, name) * factor
         shown = "-" if math.isnan(value) else f"{value:.{digits}f}"
-        lines.append(f"  {label:<22} {shown:>10} {'' if unit == '-' else unit}".rstrip())
+        lines.append(f"  {label:<24} {shown:>10} {'' if unit == '-' else unit}".rstrip())
     return "\n".join(lines)
 
 

@@ -31,6 +31,11 @@ def verdict(engine: Engine, code: int, state: State, strokes: np.ndarray) -> tup
             f"no step was small enough at t = {t:.6g} s (x = {x:.5g} mm); "
             "try a looser rtol, or check the laws for values that are not finite"
         )
+    if code == layout.TOO_MANY_STEPS:
+        return Status.STEP_FAILURE, (
+            f"over a million steps since the last dead centre at t = {t:.6g} s "
+            f"(x = {x:.5g} mm): friction, load or springs are too stiff; try smaller coefficients"
+        )
     if code == layout.STALLED:
         share = 100.0 * float(E["stroke"] / E["maximum_stroke"])
         return Status.STALLED, (

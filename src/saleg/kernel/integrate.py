@@ -14,10 +14,12 @@ from saleg.kernel.layout import (
     END_OF_TIME,
     HEAD,
     HEAD_CONTACT,
+    MOST_STEPS,
     N_ALL,
     PEAK_PRESSURE,
     STALLED,
     STEP_FAILURE,
+    TOO_MANY_STEPS,
     V,
 )
 from saleg.kernel.observe import observe
@@ -172,9 +174,14 @@ def run_on(
     E.evaluations += 1.0
     if peaks[PEAK_PRESSURE] == 0.0:  # nothing of this stroke has been watched yet
         watch_point(C, y, k[0], peaks)
+    if O.history > 0 and filled[2] == 0:
+        observe(P, E, C, y, k[0], O.motored, history[0])
+        filled[2] = 1
     while E.t < O.t_end:
         if E.steps >= last_step or not has_room(O, strokes, events, history, filled):
             return BUFFER_FULL
+        if O.adaptive == 1 and E.steps - E.steps_at_dead_centre > MOST_STEPS:
+            return TOO_MANY_STEPS
         t_event = next_time_event(C, O.t_end)
         full, end = good_step(P, E, C, O, tableau, order, t_event, y, k, y_new)
         if full < 0.0:

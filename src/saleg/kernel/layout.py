@@ -49,6 +49,9 @@ END_OF_TIME = 1
 STALLED = 2
 HEAD_CONTACT = 3
 STEP_FAILURE = 4
+TOO_MANY_STEPS = 5
+# Steps of the adaptive method in one stroke beyond which an engine is too stiff for it.
+MOST_STEPS = 1_000_000.0
 
 # Events, in the order they are looked for; one per side from PORT on.
 DEAD_CENTRE = 0
@@ -97,6 +100,7 @@ ENGINE_RECORD = np.dtype(
             "last_error",
             "grid",
             "strokes",
+            "steps_at_dead_centre",
             "steps",
             "rejected",
             "evaluations",

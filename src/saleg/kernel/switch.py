@@ -211,6 +211,7 @@ def begin_stroke(E, C, y, peaks):
         C[side].ignition_height = 0.0
     E.x_dead_centre = y[X]
     E.t_dead_centre = E.t
+    E.steps_at_dead_centre = E.steps
 
 
 @compiled

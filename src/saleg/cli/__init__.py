@@ -1,0 +1,69 @@
+"""Command line: ``saleg run``, ``saleg list``."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+
+from saleg.cli import listing, run
+from saleg.errors import SalegError
+from saleg.version import __version__
+
+#: Exit codes: all well; the run ended badly; the user's mistake; stopped from the keyboard.
+WELL, BADLY, MISTAKE, INTERRUPTED = 0, 1, 2, 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Words after ``saleg``; those of the process unless given.
+
+    Returns
+    -------
+    int
+        Exit code: 0 for a run that ended well, 1 for one that ended badly, 2 for a mistake of the
+        user's, 130 after Ctrl-C.
+    """
+    options = _parser().parse_args(arguments)
+    try:
+        with _short_warnings():
+            well = options.command(options)
+            sys.stdout.flush()
+    except SalegError as error:
+        print(f"saleg: {error}", file=sys.stderr)
+        return MISTAKE
+    except KeyboardInterrupt:
+        print("saleg: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:  # the reader, such as `head`, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return WELL
+    return WELL if well else BADLY
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="saleg", description="Simulator of free-piston linear engine generators."
+    )
+    parser.add_argument("--version", action="version", version=f"saleg {__version__}")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    run.add_to(commands)
+    listing.add_to(commands)
+    return parser
+
+
+@contextlib.contextmanager
+def _short_warnings() -> Iterator[None]:
+    """Show warnings as one line of text, without a place in the source."""
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_: print(
+            f"saleg: warning: {message}", file=sys.stderr
+        )
+        yield

@@ -1,0 +1,126 @@
+"""``saleg run``: simulate a machine or an engine file."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from saleg.cli.folder import new_folder, write_run
+from saleg.engine import Engine
+from saleg.errors import SalegError
+from saleg.files import SLOTS, laws_by_slot, nearest, read_toml
+from saleg.machines import CATALOGUE
+from saleg.results import Run
+from saleg.simulate import simulate
+from saleg.status import Status
+
+
+class CommandError(SalegError, ValueError):
+    """Words on the command line that make no sense together."""
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser's sub-commands."""
+    parser = commands.add_parser("run", help="simulate a machine or an engine file")
+    add = parser.add_argument
+    add("machine", metavar="MACHINE|FILE.toml", help="a name 'saleg list' shows, or an engine file")
+    add("--duration", type=float, default=2.5, metavar="T", help="time to simulate [s] (2.5)")
+    add(
+        "--set",
+        action="append",
+        default=[],
+        metavar="PATH=VALUE",
+        dest="changes",
+        help="change a value (SI) or, by name, a law, such as intake.pressure=1.2e5; repeatable",
+    )
+    add("--method", choices=("adaptive", "fixed"), help="integration (adaptive)")
+    add("--order", type=int, metavar="N", help="order of the fixed-step method: 1-5 or 8 (4)")
+    add("--step", type=float, metavar="S", help="fixed step [s] (5e-6)")
+    add("--rtol", type=float, metavar="R", help="tolerance of the adaptive method (1e-8)")
+    add("--out", type=Path, metavar="DIR", help="write plots, tables and engine to a new folder")
+    add("--force", action="store_true", help="replace DIR if it holds an earlier run")
+    parser.set_defaults(command=run)
+
+
+def run(options: argparse.Namespace) -> bool:
+    """Simulate, report and write; returns whether the run ended well."""
+    engine = changed(load(options.machine), options.changes)
+    settings = _settings(options)
+    if options.out is None:
+        result = simulate(engine, options.duration, **settings)
+        print(report(result))
+    else:
+        engine.validate()
+        with new_folder(options.out, options.force) as folder:
+            result = simulate(engine, options.duration, **settings)
+            names = write_run(result, folder)
+        print(report(result))
+        print(f"\nwrote {options.out}: {', '.join(names)}")
+    return result.status in (Status.STEADY, Status.COMPLETED)
+
+
+def load(name: str) -> Engine:
+    """Engine of the catalogue, or from a file."""
+    if name in CATALOGUE:
+        return CATALOGUE[name]()
+    if name.endswith(".toml") or Path(name).is_file():
+        return read_toml(name)
+    hint = nearest(name, CATALOGUE) or f"; there are {', '.join(CATALOGUE)}"
+    raise CommandError(f"no machine '{name}'{hint} (the name of an engine file ends in .toml)")
+
+
+def changed(engine: Engine, assignments: list[str]) -> Engine:
+    """Copy of an engine with texts such as ``bore=0.06`` applied."""
+    changes = {}
+    for text in assignments:
+        path, equals, value = (part.strip() for part in text.partition("="))
+        if not path or not equals or not value:
+            raise CommandError(f"--set {text}: must be PATH=VALUE, such as bore=0.06")
+        changes[path] = _value(engine, path, value)
+    return engine.replace(**changes)
+
+
+def _value(engine: Engine, path: str, text: str) -> Any:
+    """Number, or law by name; other text as it is, for the engine's own checks to refuse."""
+    slot = path.rpartition(".")[2]
+    if path == "name":
+        return text
+    if slot in SLOTS and path in (slot, f"left.{slot}", f"right.{slot}"):
+        return _law(text, slot)
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _law(name: str, slot: str) -> Any:
+    """Law of a slot by name, with its default numbers."""
+    laws = laws_by_slot()[slot]
+    if name in laws:
+        return laws[name]()
+    hint = nearest(name, laws) or f"; there are {', '.join(laws)}"
+    raise CommandError(f"no law '{name}' for {slot}{hint}")
+
+
+def _settings(options: argparse.Namespace) -> dict[str, Any]:
+    """Keywords of :func:`saleg.simulate`; those of the other method are refused."""
+    fixed = {"--order": options.order, "--step": options.step}
+    given = [flag for flag, value in fixed.items() if value is not None]
+    method = options.method or ("fixed" if given else "adaptive")
+    strange = given if method == "adaptive" else ["--rtol"] * (options.rtol is not None)
+    if strange:
+        raise CommandError(f"{strange[0]} does not belong to the {method} method")
+    chosen = {"order": options.order, "step": options.step, "rtol": options.rtol}
+    settings = {name: value for name, value in chosen.items() if value is not None}
+    return {"method": method, **settings}
+
+
+def report(result: Run) -> str:
+    """Text on a run: status, message and figures, beside the thesis' where there are any."""
+    from saleg.report import describe_run
+    from saleg.thesis_tables import comparison
+
+    well = result.status in (Status.STEADY, Status.COMPLETED)
+    table = comparison(result) if well else None
+    return describe_run(result) + (f"\n\n{table}" if table else "")
