@@ -103,6 +103,8 @@ def _inverted_work(chamber: Cylinder, inward: np.ndarray, outward: np.ndarray, s
     nearest = max(float(_height(chamber, rows, side)[0]) for rows in (inward, outward))
     compression = _Branch(chamber, inward, side, nearest, -1.0)
     expansion = _Branch(chamber, outward, side, nearest, 1.0)
+    if min(len(compression.w), len(expansion.w)) < 2:
+        return 0.0  # the ports never closed
     grid = np.linspace(0.0, min(compression.w[-1], expansion.w[-1]), ADVERSE_POINTS)
     excess = np.maximum(compression(grid) - expansion(grid), 0.0)
     area = math.pi * chamber.bore**2 / 4.0
@@ -118,7 +120,10 @@ class _Branch:
 
     def __init__(self, chamber: Cylinder, rows: np.ndarray, side: int, nearest: float, time: float):
         height = _height(chamber, rows, side)
-        rows = rows[(rows["mode"][:, side] > 0) & (height >= nearest - 1e-12)]
+        beyond = height - nearest
+        # The far dead centre of a chamber that stays closed is left out: there dp/dw is infinite.
+        moving = (rows["v"] != 0.0) | (beyond < 1e-12)
+        rows = rows[(rows["mode"][:, side] > 0) & (beyond >= -1e-12) & moving]
         self.w = np.sqrt(np.maximum(_height(chamber, rows, side) - nearest, 0.0))
         self.p = rows["p"][:, side]
         with np.errstate(divide="ignore", invalid="ignore"):

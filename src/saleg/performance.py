@@ -19,6 +19,9 @@ nan = math.nan
 class Performance:
     """Performance over one full cycle, left dead centre to left dead centre; SI.
 
+    NaN stands for what is not defined: efficiencies without fresh fuel, timings without a start of
+    combustion, the change of the compression ratio over a single cycle.
+
     Attributes
     ----------
     stroke : float

@@ -64,9 +64,10 @@ class Limits(NamedTuple):
             text for text, end in ((above, self.low), (below, self.high)) if not math.isinf(end)
         )
 
-    def wanted(self, kind: str) -> str:
+    def wanted(self, kind: str = "") -> str:
         """What a wrong value should have been."""
-        return f"must be {kind} {self}".rstrip()
+        allowed = str(self)
+        return " ".join(f"must be {kind or (not allowed) * 'a finite number'} {allowed}".split())
 
     def admits(self, value: float) -> bool:
         """Whether a finite number lies in the range."""
@@ -125,7 +126,7 @@ def problems(node: Any, path: str = "") -> list[Problem]:
             if not is_number(value):
                 found.append(Problem(where, value, limits.unit, limits.wanted("a number")))
             elif not math.isfinite(value) or not limits.admits(float(value)):
-                found.append(Problem(where, value, limits.unit, limits.wanted("a finite number")))
+                found.append(Problem(where, value, limits.unit, limits.wanted()))
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             found.extend(problems(value, where))
     return found

@@ -58,10 +58,13 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
         since = f"since t = {float(strokes['t'][fired[-1]]):.6g} s" if len(fired) else "at all"
         return Status.STALLED, f"ran to t = {t:.6g} s but has not fired {since}; {_STALL_HINT}"
     if engine.fires and not cycle["electrical_energy"].sum() > 1e-9 * cycle["heat_released"].sum():
-        return Status.IDLING, (
-            f"fires at t = {t:.6g} s but delivers no power: the alternator's load weight is "
-            f"{float(cycle['load_weight'][-1]):.3g}; try more fuel or a smaller target stroke"
+        weight = float(cycle["load_weight"][-1])
+        why = (
+            "the alternator takes none; try a larger alternator.load_constant"
+            if weight > 0.0
+            else "the load weight is 0; try more fuel or a smaller alternator.target_stroke"
         )
+        return Status.IDLING, f"fires at t = {t:.6g} s but delivers no power: {why}"
     change = _change_per_cycle(engine, strokes[: start + 2])
     if change is not None and change < STEADY:
         return Status.STEADY, f"steady at t = {t:.6g} s: {_PER_CYCLE.format(change)}"
