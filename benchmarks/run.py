@@ -1,0 +1,188 @@
+"""Side by side in one run: saleg and general solvers on the base case at equal accuracy.
+
+    python benchmarks/run.py [--seconds 1.0] [--accuracy 1e-5] [--repeats 5]
+
+Every solver is given the loosest of a row of tolerances at which frequency, stroke, electrical work
+and peak pressure of the last cycle come within the accuracy of the converged ones; times are the
+best of some repeats, ratios are to saleg's. scikit-sundae and heyoka take part where installed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import functools
+import importlib.util
+import itertools
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import time
+
+import model
+import numpy as np
+import solvers
+
+import saleg
+
+#: Greatest resident memory of this very program; getrusage would count what started it.
+PEAK_MEMORY = """
+def peak_memory():
+    lines = open("/proc/self/status").read().splitlines()
+    return next(float(line.split()[1]) / 1024 for line in lines if line.startswith("VmHWM"))
+"""
+
+TOLERANCES = [10.0 ** (-0.5 * n) for n in range(6, 23)]
+
+
+def figures(run):
+    """What is compared: frequency, stroke, electrical work per cycle, peak pressure."""
+    p = run.performance
+    return np.array([p.frequency, p.stroke, p.power / p.frequency, p.peak_pressure])
+
+
+def candidates():
+    """Solvers to compare, as functions of the tolerance returning a driver."""
+    found = {
+        f"solve_ivp {method}": functools.partial(solvers.scipy_solver, method)
+        for method in ("DOP853", "RK45", "LSODA")
+    }
+    if importlib.util.find_spec("sksundae"):
+        for method in ("Adams", "BDF"):
+            found[f"CVODE {method}"] = functools.partial(solvers.cvode_solver, method)
+    if importlib.util.find_spec("heyoka"):
+        found["heyoka"] = solvers.heyoka_solver
+    return found
+
+
+def best_time(function, repeats):
+    """Shortest of some runs [s]."""
+    times = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        function()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def saleg_run(rtol, seconds):
+    """One run of saleg, without what only figures need."""
+    return saleg.simulate(model.E, seconds, rtol=rtol)
+
+
+def loosest(figures_at, wanted, accuracy):
+    """Loosest tolerance that reaches the accuracy, and the error there; None if none does.
+
+    A tolerance counts only if the next tighter one reaches the accuracy too: not by luck.
+    """
+    errors = {}
+    for rtol, tighter in itertools.pairwise(TOLERANCES):
+        for value in (rtol, tighter):
+            if value not in errors:
+                errors[value] = float(np.abs(figures_at(value) / wanted - 1.0).max())
+        if errors[rtol] <= accuracy and errors[tighter] <= accuracy:
+            return rtol, errors[rtol]
+    return None
+
+
+def compare(seconds, accuracy, repeats):
+    """Rows of the comparison: name, tolerance, error, seconds."""
+    wanted = figures(saleg.simulate(model.E, seconds, rtol=1e-12))
+    rows = []
+    rtol, error = loosest(lambda r: figures(saleg_run(r, seconds)), wanted, accuracy)
+    rows.append(("saleg", rtol, error, best_time(lambda: saleg_run(rtol, seconds), 5 * repeats)))
+    for name, make in candidates().items():
+        found = loosest(
+            lambda r, make=make: model.run(make(r), seconds).figures(), wanted, accuracy
+        )
+        if found is None:
+            rows.append((name, None, None, None))
+            continue
+        advance = make(found[0])
+        duration = best_time(lambda a=advance: model.run(a, seconds), repeats)
+        rows.append((name, *found, duration))
+    return rows
+
+
+def in_a_process(code, cache):
+    """Wall seconds and greatest memory [MB] of a fresh interpreter running some code."""
+    env = {**os.environ, "SALEG_CACHE_DIR": cache}
+    start = time.perf_counter()
+    out = subprocess.run(
+        [sys.executable, "-c", f"{code}\n{PEAK_MEMORY}\nprint(peak_memory())"],
+        env=env,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    return time.perf_counter() - start, float(out.stdout.split()[-1])
+
+
+def start_up():
+    """What a fresh process costs: first ever, and with the kernel on disk."""
+    result = "import saleg; saleg.simulate(saleg.machines.thesis_base(), 1.0).performance"
+    cases = {
+        "numpy alone": "import numpy",
+        "import saleg": "import saleg",
+        "first result, kernel compiled": result,
+        "first result, kernel on disk": result,
+    }
+    with tempfile.TemporaryDirectory() as cache:
+        return {name: in_a_process(code, cache) for name, code in cases.items()}
+
+
+def long_run_memory(cycles):
+    """Growth of memory [MB] over a long run that keeps its last ten cycles."""
+    code = (
+        f"{PEAK_MEMORY}\nimport saleg; e = saleg.machines.thesis_base();"
+        "saleg.simulate(e, 1.0, rtol=1e-5, keep_cycles=10); before = peak_memory();"
+        f"r = saleg.simulate(e, {cycles / 46.97}, rtol=1e-5, keep_cycles=10);"
+        "print(peak_memory() - before)"
+    )
+    out = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    return float(out.stdout)
+
+
+def print_table(head, rows):
+    """Print a table in Markdown."""
+    print("| " + " | ".join(head) + " |")
+    print("|" + "---|" * len(head))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def main():
+    """Run everything and print the tables."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seconds", type=float, default=1.0, help="engine time to simulate")
+    parser.add_argument("--accuracy", type=float, default=1e-5)
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--cycles", type=int, default=100_000, help="cycles of the long run")
+    options = parser.parse_args()
+    machine = f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
+    print(f"{machine}; Python {platform.python_version()}; saleg {saleg.__version__}\n")
+    rows = compare(options.seconds, options.accuracy, options.repeats)
+    ours = rows[0][3]
+    print_table(
+        ("solver", "time / saleg", "rtol", "error", "time [ms]"),
+        [
+            (name, f"{t / ours:.1f}", f"{r:.1e}", f"{e:.1e}", f"{1e3 * t:.1f}")
+            if r
+            else (name, "-", "-", f"> {options.accuracy:g}", "-")
+            for name, r, e, t in rows
+        ],
+    )
+    base = start_up()
+    floor = base["numpy alone"][0]
+    print_table(
+        ("start of a process", "above numpy [s]", "time [s]", "memory [MB]"),
+        [(n, f"{t - floor:.2f}", f"{t:.2f}", f"{m:.0f}") for n, (t, m) in base.items()],
+    )
+    growth = long_run_memory(options.cycles)
+    print(f"{options.cycles} cycles, the last ten kept: memory grows by {growth:.1f} MB")
+
+
+if __name__ == "__main__":
+    main()
