@@ -165,7 +165,7 @@ def integrate(engine: Engine, state: State, settings: Settings) -> Run:
     """Integrate from a state; the engine is taken to be valid."""
     kernel = kernel_for(engine)
     P = parameters(engine)
-    options = _options(settings, float(state.engine["t"][0]) + settings.duration)
+    options = options_record(settings, float(state.engine["t"][0]) + settings.duration)
     records = Records(bool(settings.history), settings.keep_cycles)
     snapshot = _snapshot(state)
     code = _drive(kernel, P, state, settings, options, records, snapshot)
@@ -226,7 +226,7 @@ def _drive(
                 return int(code)
 
 
-def _options(settings: Settings, t_end: float) -> np.ndarray:
+def options_record(settings: Settings, t_end: float) -> np.ndarray:
     options = np.zeros(1, layout.OPTIONS_RECORD)
     options["adaptive"] = settings.adaptive
     options["motored"] = settings.motored_pressure

@@ -78,6 +78,51 @@ TABLE_13 = Column(
     },
 )
 
+
+def _rows(rows: dict[float, tuple[float, ...]]) -> dict[float, dict[str, float]]:
+    """Rows of Tables 2-4 in SI: peak pressure, stroke, efficiency, power, seconds needed."""
+    names = ("peak_pressure", "stroke", "efficiency", "power", "cost")
+    factors = (1e5, 1e-3, 1e-2, 1e3, 1.0)
+    return {
+        key: {
+            name: value * factor for name, value, factor in zip(names, values, factors, strict=True)
+        }
+        for key, values in rows.items()
+    }
+
+
+#: Tables 2 (by step [s]), 3 (by order) and 4 (by stop time [s]) of the base case, in SI. The step
+#: of 1e-4 s is printed as unstable.
+TABLE_2 = _rows(
+    {
+        5e-5: (179.7, 187.8, 53.30, 33.47, 0.829),
+        1e-5: (108.2, 181.6, 36.90, 23.75, 2.22),
+        5e-6: (105.9, 181.1, 35.53, 22.71, 4.19),
+        1e-6: (103.6, 180.7, 34.50, 22.04, 29.1),
+        5e-7: (103.3, 180.7, 34.38, 21.99, 68.4),
+    }
+)
+TABLE_3 = _rows(
+    {
+        1: (106.9, 181.2, 35.94, 22.90, 3.11),
+        2: (105.9, 181.1, 35.53, 22.71, 3.12),
+        3: (105.9, 181.1, 35.53, 22.71, 3.63),
+        4: (105.9, 181.1, 35.53, 22.71, 4.19),
+        5: (105.9, 181.1, 35.53, 22.71, 5.30),
+        8: (105.9, 181.7, 35.53, 22.71, 9.66),
+    }
+)
+TABLE_4 = _rows(
+    {
+        1.0: (105.7, 181.0, 35.51, 22.61, 1.24),
+        1.5: (105.8, 181.0, 35.50, 22.69, 1.67),
+        2.0: (105.4, 181.0, 35.51, 22.92, 2.23),
+        2.5: (105.8, 181.1, 35.52, 22.81, 2.64),
+        3.0: (106.1, 181.1, 35.53, 22.71, 3.21),
+        3.5: (105.9, 181.1, 35.53, 22.71, 3.64),
+    }
+)
+
 COLUMNS = {"thesis-base": (TABLE_1, FINEST), "thesis-transient": (TABLE_13,)}
 
 REMARKS = {

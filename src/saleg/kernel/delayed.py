@@ -1,0 +1,73 @@
+"""Emulation of a block diagram whose cylinder blocks lag behind: for study, not for use.
+
+A fixed step of Heun's method on a grid, as block-diagram simulators take it: modes change only at
+grid points, after the fact, and the translator feels the gas force of some steps ago.
+"""
+
+from math import copysign
+
+from saleg.kernel.events import is_sound
+from saleg.kernel.jit import cached, compiled
+from saleg.kernel.layout import (
+    BUFFER_FULL,
+    DEAD_CENTRE,
+    END_OF_TIME,
+    N_ALL,
+    STALLED,
+    STEP_FAILURE,
+    V,
+)
+from saleg.kernel.peaks import watch_point
+from saleg.kernel.rhs import chamber_rates, rates_of_motion
+from saleg.kernel.switch import switch
+
+
+@compiled
+def lagging_rhs(P, E, C, t, y, dy, delay, late_force):
+    """Rates with a late gas force, or that of now if nothing lags; returns the one of now."""
+    force = 0.0
+    for side in range(2):
+        force += C[side].sign * C[side].area * chamber_rates(P, E, C, side, t, y, dy, 0)
+    rates_of_motion(P, E, t, y, dy, late_force if delay > 0 else force)
+    return force
+
+
+@cached
+def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled, work):
+    """Run to the end with the gas force `delay` steps late.
+
+    `forces` is a ring of the last gas forces, longer than the delay, filled with the first one.
+    """
+    P, E, O = P1[0], E1[0], O1[0]
+    k0, k1, y_new = work
+    size = forces.shape[0]
+    while E.t < O.t_end:
+        if strokes.shape[0] - filled[0] < 1 or events.shape[0] - filled[1] < 12:
+            return BUFFER_FULL
+        now = int(E.grid) % size
+        late = forces[(now - delay) % size]
+        forces[now] = lagging_rhs(P, E, C, E.t, y, k0, delay, late)
+        if delay == 0:
+            late = forces[now]
+        for n in range(N_ALL):
+            y_new[n] = y[n] + O.step * k0[n]
+        if not is_sound(C, y_new):
+            return STEP_FAILURE
+        lagging_rhs(P, E, C, E.t + O.step, y_new, k1, delay, late)
+        for n in range(N_ALL):
+            y[n] += 0.5 * O.step * (k0[n] + k1[n])
+        if not is_sound(C, y):
+            return STEP_FAILURE
+        E.grid += 1.0
+        E.steps += 1.0
+        E.evaluations += 2.0
+        E.t = E.grid * O.step
+        if E.direction == 0.0 and y[V] != 0.0:
+            E.direction = copysign(1.0, y[V])
+        watch_point(C, y, k1, peaks)
+        landed = DEAD_CENTRE if E.direction * y[V] < 0.0 else -1
+        switch(P, E, C, O, y, landed, peaks, strokes, events, filled)
+        short = E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke
+        if landed == DEAD_CENTRE and short:
+            return STALLED
+    return END_OF_TIME
