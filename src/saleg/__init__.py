@@ -34,3 +34,12 @@ __all__ = [
     "machines",
     "simulate",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """Import the heavier parts on first use: ``saleg.plotting``, ``saleg.reference``..."""
+    if name in ("export", "plotting", "reference", "studies"):
+        import importlib
+
+        return importlib.import_module(f"saleg.{name}")
+    raise AttributeError(f"module 'saleg' has no attribute {name!r}")

@@ -26,6 +26,10 @@ class InvalidEngine(SalegError, ValueError):
         lines = "\n".join(f"  {problem}" for problem in self.problems)
         super().__init__(f"{count} wrong field{'s' if count > 1 else ''} in the engine:\n{lines}")
 
+    def __reduce__(self) -> tuple[type[InvalidEngine], tuple[list[Problem]]]:
+        """Pickle by the problems, not by their text."""
+        return type(self), (self.problems,)
+
 
 class UnknownPath(SalegError, KeyError):
     """A dotted path that leads nowhere in an engine."""
@@ -40,3 +44,7 @@ class EngineFileError(SalegError, ValueError):
 
 class LawError(SalegError, TypeError):
     """A law that cannot be compiled; names law, method and the offending name."""
+
+
+class StartError(SalegError, ArithmeticError):
+    """An engine whose laws cannot be evaluated where it starts."""

@@ -221,6 +221,9 @@ class _Reader:
         if name is None:
             self.wrong.append(f"{path}.{word}: missing; one of {names}")
             return None
+        if not isinstance(name, str):
+            self.wrong.append(f"{path}.{word} = {name!r}: must be text; one of {names}")
+            return None
         slot = next((slot for slot, laws in self.laws.items() if name in laws), None)
         hint = nearest(str(name), known) or f"; there are {names}"
         if word == LAW and slot is not None:

@@ -39,11 +39,28 @@ def get(engine: Engine, path: str) -> Any:
 
 def replace(engine: Engine, changes: Mapping[str, Any]) -> Engine:
     """Copy of an engine with the values at some dotted paths replaced."""
+    unknown = []
     # Whole parts first, so that a law and one of its numbers can be changed in one call.
-    for path in sorted(changes, key=lambda path: path.count(".")):
-        for target in _targets(engine, path):
+    for path in sorted(changes, key=_depth):
+        try:
+            found = _targets(engine, path)
+        except UnknownPath as error:
+            unknown.append(str(error))
+            continue
+        for target in found:
             engine = _set(engine, target, changes[path])
+    if unknown:
+        raise UnknownPath("\n".join(unknown))
     return engine
+
+
+def _depth(path: str) -> int:
+    """How deep below the engine or its chambers a path leads."""
+    if not isinstance(path, str):
+        return 0
+    side, _, rest = path.partition(".")
+    path = rest if side in ("left", "right") and rest else path
+    return len(_expand(path, {**ENGINE_ALIASES, **CHAMBER_ALIASES}))
 
 
 def known_paths(engine: Engine) -> list[str]:

@@ -143,7 +143,7 @@ class Performance:
             ),
             frequency=1.0 / period,
             power=power,
-            rms_power=math.sqrt(float(strokes["electrical_squared"].sum()) / period),
+            rms_power=math.sqrt(max(float(strokes["electrical_squared"].sum()), 0.0) / period),
             efficiency=power * period / fuel if fuel > 0.0 else nan,
             mean_alternator_force=float(strokes["alternator_impulse"].sum()) / period,
             peak_pressure=float(strokes["peak_pressure"].max()),

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.errors import StartError
 from saleg.kernel import layout
+from saleg.kernel.compose import check_laws
 from saleg.kernel.rhs import rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
@@ -39,7 +41,26 @@ class State:
 
 
 def prepare(engine: Engine) -> State:
-    """State of an engine at the beginning of a run, as its start law has it."""
+    """State of an engine at the beginning of a run, as its start law has it.
+
+    Raises
+    ------
+    LawError
+        If a law cannot become part of a kernel.
+    StartError
+        If a law overflows or divides by zero there.
+    """
+    check_laws(engine)
+    try:
+        return _prepare(engine)
+    except (ArithmeticError, ValueError) as error:
+        raise StartError(
+            f"a law cannot be evaluated at the start ({error}): check its parameters, or begin "
+            "with another start"
+        ) from error
+
+
+def _prepare(engine: Engine) -> State:
     start = engine.start.initial(engine)
     E = np.zeros(1, layout.ENGINE_RECORD).view(np.recarray)
     C = np.zeros(2, layout.CHAMBER_RECORD).view(np.recarray)

@@ -126,7 +126,10 @@ def problems(node: Any, path: str = "") -> list[Problem]:
             if not is_number(value):
                 found.append(Problem(where, value, limits.unit, limits.wanted("a number")))
             elif not math.isfinite(value) or not limits.admits(float(value)):
-                found.append(Problem(where, value, limits.unit, limits.wanted()))
+                kind = "" if math.isfinite(value) else "a finite number"
+                found.append(Problem(where, value, limits.unit, limits.wanted(kind)))
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             found.extend(problems(value, where))
+        elif hasattr(node, "compiled") and not is_number(value):  # a law's record holds numbers
+            found.append(Problem(where, value, "", "must be a number: a law holds numbers only"))
     return found

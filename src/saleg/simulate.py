@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
@@ -75,11 +75,12 @@ def simulate(
         Adaptive Dormand-Prince 5(4) pair, or a fixed step on a grid. Both end steps exactly on
         events.
     order : {1, 2, 3, 4, 5, 8}
-        Order of the fixed-step method.
+        Order of the fixed-step method; the adaptive one has its own.
     step : float, optional
         Fixed step [s]; 5 microseconds unless given. Giving one asks for ``method="fixed"``.
     rtol : float
-        Tolerance of the adaptive method, relative to stroke, natural speed and pressure.
+        Tolerance of the adaptive method, from 1e-14 to 1e-2, relative to stroke, natural speed
+        and pressure; a fixed step has none.
     history : int, optional
         Keep every n-th step in :attr:`Run.history`, events always; nothing unless given.
     motored_pressure : bool
@@ -131,20 +132,22 @@ def _settings(
     wrong = []
     if method not in ("adaptive", "fixed"):
         wrong.append(f"method = {method!r}: must be 'adaptive' or 'fixed'")
-    if order not in tableaus.FIXED_STEP:
+    if not is_number(order) or order not in tableaus.FIXED_STEP:
         orders = ", ".join(str(number) for number in tableaus.FIXED_STEP)
         wrong.append(f"order = {order!r}: must be one of {orders}")
     for name, value, low, high in (
         ("duration", duration, 0.0, math.inf),
-        ("step", DEFAULT_STEP if step is None else step, 0.0, 1.0),
-        ("rtol", rtol, 0.0, 0.1),
+        ("step", DEFAULT_STEP if step is None else step, 1e-12, 1.0),
+        ("rtol", rtol, 9.9e-15, 1.01e-2),
     ):
         if not is_number(value) or not low < value < high:
             wrong.append(f"{name} = {value!r}: must be a number > {low:g} and < {high:g}")
     if not is_number(stall_stroke) or not 0.0 <= stall_stroke < 1.0:
         wrong.append(f"stall_stroke = {stall_stroke!r}: must be a number >= 0 and < 1")
     for name, count in (("history", history), ("keep_cycles", keep_cycles)):
-        if count is not None and not (isinstance(count, (int, np.integer)) and count >= 1):
+        if count is None:
+            continue
+        if not (isinstance(count, (int, np.integer)) and 1 <= count < 2**31):
             wrong.append(f"{name} = {count!r}: must be a whole number >= 1, or None")
     if wrong:
         raise SettingsError("cannot simulate:\n" + "\n".join(f"  {text}" for text in wrong))
@@ -153,7 +156,7 @@ def _settings(
         adaptive=method == "adaptive" and step is None,
         order=int(order),
         step=DEFAULT_STEP if step is None else float(step),
-        rtol=max(float(rtol), 1e-14),
+        rtol=float(rtol),
         history=int(history or 0),
         motored_pressure=bool(motored_pressure),
         stall_stroke=float(stall_stroke),
@@ -227,6 +230,7 @@ def _drive(
 
 
 def options_record(settings: Settings, t_end: float) -> np.ndarray:
+    """Settings as the kernel reads them."""
     options = np.zeros(1, layout.OPTIONS_RECORD)
     options["adaptive"] = settings.adaptive
     options["motored"] = settings.motored_pressure
@@ -263,37 +267,44 @@ def _snapshot(state: State) -> tuple[np.ndarray, ...]:
     return kept
 
 
-def _replay(
-    engine: Engine, snapshot: tuple[np.ndarray, ...], settings: Settings
-) -> Callable[[], Run] | None:
-    """Function that simulates the last full cycle again with everything recorded, or None."""
-    if snapshot[0]["mass"][1] == 0.0 or settings.last_stroke < math.inf:
-        return None
+@dataclass(frozen=True, eq=False)
+class Replay:
+    """Simulates the last full cycle again, with every instant recorded and every peak located."""
 
-    def replay() -> Run:
-        E, C, y = (part[1].copy() for part in snapshot)
+    engine: Engine
+    snapshot: tuple[np.ndarray, ...]
+    settings: Settings
+
+    def __call__(self) -> Run:
+        """Run the cycle."""
+        E, C, y = (part[1].copy() for part in self.snapshot)
         state = State(E.reshape(1), C, y, np.zeros(layout.N_PEAKS))
-        period = float(snapshot[0]["t"][0] - snapshot[0]["t"][1])
-        last = float(E["strokes"]) + 2.0
+        period = float(self.snapshot[0]["t"][0] - self.snapshot[0]["t"][1])
         asked = replace(
-            settings,
+            self.settings,
             duration=1.5 * period,
-            last_stroke=last,
+            last_stroke=float(E["strokes"]) + 2.0,
             history=1,
             dense=ORBIT_POINTS,
             peaks=2,
             keep_cycles=None,
         )
-        return integrate(engine, state, asked)
+        return integrate(self.engine, state, asked)
 
-    return replay
+
+def _replay(engine: Engine, snapshot: tuple[np.ndarray, ...], settings: Settings) -> Replay | None:
+    """How to see the last full cycle again; None without one."""
+    if snapshot[0]["mass"][1] == 0.0 or settings.last_stroke < math.inf:
+        return None
+    return Replay(engine, snapshot, settings)
 
 
 def _described(settings: Settings) -> dict[str, Any]:
     """What people want to know of how a run was integrated."""
+    motored = {"motored_pressure": settings.motored_pressure}
     if settings.adaptive:
-        return {"method": "adaptive", "rtol": settings.rtol}
-    return {"method": "fixed", "order": settings.order, "step": settings.step}
+        return {"method": "adaptive", "rtol": settings.rtol, **motored}
+    return {"method": "fixed", "order": settings.order, "step": settings.step, **motored}
 
 
 @contextmanager

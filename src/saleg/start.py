@@ -105,7 +105,7 @@ class CompressedCharge(Start):
             side = 1 - side
         charged = engine.chambers[side]
         length = charged.half_stroke
-        depth = min(abs(self.position) * length, length - 2 * charged.head_gap)
+        depth = min(abs(self.position) * length, length - min(2.0 * charged.head_gap, 0.5 * length))
         x = depth if side == 1 else -depth
         lit = bool(self.burning) and _is_cylinder(charged)
         held = (

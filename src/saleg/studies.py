@@ -325,7 +325,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int) -> Run:
         )
         records.make_room()
     strokes = records.kept_strokes.joined()
-    status, message = verdict(engine, code, state, strokes)
+    status, message = verdict(engine, code, state, strokes, conserves=False)
     return Run(
         engine=engine,
         status=status,

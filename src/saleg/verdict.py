@@ -6,18 +6,26 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
+from saleg.performance import EnergyBalance
 from saleg.prepare import State
 from saleg.results import last_cycle_start
 from saleg.status import Status
 
 #: Change of the dead centres per cycle, over the half stroke (Eq. 68), below which a run is steady.
 STEADY = 1e-6
+#: Residual of a cycle's energy balance, over the heat released, beyond which it is no result.
+MOST_IMBALANCE = 0.05
 #: Cycles over which it must stay below.
 STEADY_CYCLES = 5
 
 
-def verdict(engine: Engine, code: int, state: State, strokes: np.ndarray) -> tuple[Status, str]:
-    """Status of a run and a message that says what happened, when, and what to try."""
+def verdict(
+    engine: Engine, code: int, state: State, strokes: np.ndarray, conserves: bool = True
+) -> tuple[Status, str]:
+    """Status of a run and a message that says what happened, when, and what to try.
+
+    A run whose last cycle does not conserve energy is no result; `conserves` False lets it pass.
+    """
     E = state.engine[0]
     t, x = float(E["t"]), 1e3 * float(state.y[layout.X])
     if code == layout.HEAD_CONTACT:
@@ -41,7 +49,24 @@ def verdict(engine: Engine, code: int, state: State, strokes: np.ndarray) -> tup
         return Status.STALLED, (
             f"the stroke fell to {share:.2g} % of the maximum at t = {t:.6g} s; {_STALL_HINT}"
         )
+    if E["direction"] == 0.0:
+        return Status.COMPLETED, f"never moved to t = {t:.6g} s: in equilibrium; try another start"
+    off = _imbalance(strokes) if conserves else 0.0
+    if off > MOST_IMBALANCE:
+        return Status.STEP_FAILURE, (
+            f"the steps are too coarse: at t = {t:.6g} s the energy balance of the last cycle is "
+            f"off by {100.0 * off:.2g} % of the heat released; try a smaller step or rtol"
+        )
     return _at_end_of_time(engine, t, strokes)
+
+
+def _imbalance(strokes: np.ndarray) -> float:
+    """Residual of the energy balance of the last cycle over the heat released."""
+    start = last_cycle_start(strokes)
+    if start is None or start == 0:
+        return 0.0
+    balance = EnergyBalance.between(strokes[start - 1], strokes[start : start + 2])
+    return abs(balance.residual) / balance.released if balance.released > 0.0 else 0.0
 
 
 _PER_CYCLE = "dead centres change by {:.1e} half strokes per cycle"
@@ -60,7 +85,7 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     if engine.fires and not cycle["electrical_energy"].sum() > 1e-9 * cycle["heat_released"].sum():
         weight = float(cycle["load_weight"][-1])
         why = (
-            "the alternator takes none; try a larger alternator.load_constant"
+            "the alternator gives none; try a larger alternator.load_constant or efficiency"
             if weight > 0.0
             else "the load weight is 0; try more fuel or a smaller alternator.target_stroke"
         )

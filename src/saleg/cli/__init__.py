@@ -39,12 +39,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except SalegError as error:
         print(f"saleg: {error}", file=sys.stderr)
         return MISTAKE
+    except (OSError, UnicodeError) as error:
+        if isinstance(error, BrokenPipeError):  # the reader, such as `head`, has seen enough
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return WELL
+        print(f"saleg: {ascii(str(error))[1:-1]}", file=sys.stderr)
+        return MISTAKE
     except KeyboardInterrupt:
         print("saleg: interrupted", file=sys.stderr)
         return INTERRUPTED
-    except BrokenPipeError:  # the reader, such as `head`, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return WELL
     return WELL if well else BADLY
 
 

@@ -26,7 +26,7 @@ import numpy as np
 from saleg.errors import LawError
 from saleg.kernel import jit
 from saleg.kernel.cache import locked, usable_folder, write_atomically
-from saleg.kernel.source import Borrowed, NoSource
+from saleg.kernel.source import Borrowed, NoSource, check_law, fingerprint
 from saleg.laws import CFRIgnition, InstantExchange, Law, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 
@@ -70,10 +70,25 @@ class Kernel:
         function = getattr(self.module, name)
         if not function.signatures:
             with locked(self._lock) if self._lock else nullcontext():
-                from numba import typeof
-
-                function.compile(tuple(typeof(argument) for argument in arguments))
+                self._compile(function, arguments)
         return function(*arguments)
+
+    def _compile(self, function: Any, arguments: tuple[Any, ...]) -> None:
+        """Compile an entry point or load it; what is damaged on disk is compiled afresh."""
+        from numba import typeof
+        from numba.core.errors import NumbaError
+
+        signature = tuple(typeof(argument) for argument in arguments)
+        try:
+            function.compile(signature)
+        except NumbaError as error:
+            raise LawError(f"a law cannot be compiled: {error}") from error
+        except Exception:
+            if self._lock is None:
+                raise
+            for damaged in self._lock.parent.glob(f"__pycache__/{self._lock.stem}*"):
+                damaged.unlink(missing_ok=True)
+            function.compile(signature)
 
 
 def slots_of(chamber: Chamber) -> dict[str, Law]:
@@ -90,11 +105,28 @@ def laws_of(engine: Engine) -> dict[str, dict[str, Law]]:
     }
 
 
+def check_laws(engine: Engine) -> None:
+    """Refuse laws that cannot become part of a kernel, before any of them is called.
+
+    Raises
+    ------
+    LawError
+        Naming law and method.
+    """
+    for laws in laws_of(engine).values():
+        for law in laws.values():
+            check_law(type(law))
+
+
 def kernel_for(engine: Engine, modules: tuple[str, ...] = INTEGRATOR) -> Kernel:
-    """Compiled kernel for the laws of an engine; composed once per choice of laws."""
+    """Compiled kernel for the laws of an engine.
+
+    Composed once per choice of laws, and anew when a law, or a helper or constant it uses, has
+    been changed in this process, as in a notebook.
+    """
     laws = laws_of(engine)
     classes = tuple(type(law) for place in laws.values() for law in place.values())
-    return _load(classes, modules)
+    return _load(classes, modules, tuple(fingerprint(law) for law in dict.fromkeys(classes)))
 
 
 def parameters(engine: Engine) -> np.ndarray:
@@ -118,8 +150,10 @@ def _values(law: Law) -> tuple[float, ...]:
 
 
 @lru_cache(maxsize=128)
-def _load(classes: tuple[type[Law], ...], modules: tuple[str, ...]) -> Kernel:
-    """Compose, keep and import the kernel for a choice of law classes."""
+def _load(
+    classes: tuple[type[Law], ...], modules: tuple[str, ...], state: tuple[object, ...]
+) -> Kernel:
+    """Compose, keep and import the kernel for a choice of law classes in a certain state."""
     left, right, engine = classes[:5], classes[5:10], classes[10:]
     try:
         text = compose(left, right, engine, modules)
@@ -129,7 +163,7 @@ def _load(classes: tuple[type[Law], ...], modules: tuple[str, ...]) -> Kernel:
     if folder is None:
         return Kernel(_execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None)
     path = folder / f"saleg_kernel_{_digest(text)}.py"
-    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+    if not path.is_file() or path.read_bytes() != text.encode():
         write_atomically(path, text)
     return Kernel(_execute(text, str(path)), path.with_suffix(".lock"))
 

@@ -11,7 +11,7 @@ from saleg.kernel.layout import (
     HEAD,
     IGNITION,
     LIGHT,
-    MOTORED,
+    N_ALL,
     N_EVENTS,
     OPEN,
     THETA,
@@ -162,7 +162,7 @@ def locate(P, E, C, tableau, t, h, y, k, y_new, event, motored):
 @compiled
 def is_sound(C, y):
     """Whether a state is finite and both pistons are short of their heads."""
-    for n in range(MOTORED + 2):
+    for n in range(N_ALL):
         if not isfinite(y[n]):
             return False
     return height_of(C, 0, y[X]) > 0.0 and height_of(C, 1, y[X]) > 0.0

@@ -16,12 +16,13 @@ import numbers
 import textwrap
 import types
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from saleg.errors import LawError
-from saleg.laws.base import Law
+from saleg.laws.base import GasProperties, Law
 
 ALLOWED_BUILTINS = frozenset(
     {"abs", "bool", "float", "int", "len", "max", "min", "pow", "range", "round"}
@@ -30,6 +31,54 @@ ALLOWED_BUILTINS = frozenset(
 
 class NoSource(Exception):
     """The text of a method cannot be had (it was typed into a plain interpreter)."""
+
+
+@lru_cache(maxsize=1024)
+def check_law(law: type[Law]) -> None:
+    """Refuse a law class that cannot become part of a kernel.
+
+    Raises
+    ------
+    LawError
+        Naming law and method.
+    """
+    if not dataclasses.is_dataclass(law):
+        raise LawError(f"{law.__name__} must be a frozen dataclass: put @dataclass(frozen=True)")
+    if issubclass(law, GasProperties):
+        names = {item.name for item in dataclasses.fields(law)}
+        if "gas_constant" not in names:
+            raise LawError(f"{law.__name__} needs a field 'gas_constant' [J/kg/K]")
+    bases = [base for base in law.__mro__ if base.__module__ == GasProperties.__module__]
+    for name in law.compiled:
+        method = getattr(law, name)
+        if any(vars(base).get(name) is method for base in bases):
+            raise LawError(f"{law.__name__}.{name} is missing: a {law.slot} law has that method")
+        plain = (inspect.Parameter.POSITIONAL_OR_KEYWORD,)
+        for parameter in inspect.signature(method).parameters.values():
+            if parameter.kind not in plain:
+                raise LawError(f"{law.__name__}.{name}: '{parameter}' must be a plain argument")
+
+
+def fingerprint(law: type[Law]) -> tuple[object, ...]:
+    """All that the text of a law's methods depends on: code, helpers, constants."""
+    seen: dict[types.FunctionType, None] = {}
+    found: list[object] = []
+    waiting: list[Any] = [getattr(law, name) for name in law.compiled]
+    while waiting:
+        function = waiting.pop()
+        if not isinstance(function, types.FunctionType) or function in seen:
+            continue
+        seen[function] = None
+        found.append(function.__code__)
+        cells = [cell.cell_contents for cell in function.__closure__ or ()]
+        names = [name for name in function.__code__.co_names if name in function.__globals__]
+        for value in [*cells, *(function.__globals__[name] for name in names)]:
+            value = getattr(value, "py_func", value)
+            if isinstance(value, types.FunctionType):
+                waiting.append(value)
+            else:
+                found.append(_literal(value) or id(value))
+    return tuple(found)
 
 
 class Borrowed:
@@ -47,7 +96,7 @@ class Borrowed:
         self.prefix = prefix
         self.owner = owner
         self.definitions: list[str] = []
-        self._names: dict[int, str] = {}
+        self._carried: dict[object, str] = {}
 
     def add_method(self, law: type[Law], method: Callable[..., Any], name: str) -> None:
         """Add a method of a law as a function `name` whose first argument is the law's record."""
@@ -66,6 +115,7 @@ class Borrowed:
         tree.decorator_list = []
         for argument in (*tree.args.posonlyargs, *tree.args.args, *tree.args.kwonlyargs):
             argument.annotation = None
+        tree = _Unannotated().visit(tree)
         ast.fix_missing_locations(tree)
         self.definitions.append("@inline\n" + ast.unparse(tree))
 
@@ -76,20 +126,39 @@ class Borrowed:
             return ast.parse(known, mode="eval").body
         value = getattr(value, "py_func", value)  # a function somebody has jitted already
         if isinstance(value, types.FunctionType):
-            if id(value) not in self._names:
-                self._names[id(value)] = f"{self.prefix}{value.__name__}"
-                self._emit(_parse(value), value, self._names[id(value)])
-            return ast.Name(self._names[id(value)], ast.Load())
+            if value not in self._carried:
+                self._carried[value] = self._new_name(value.__name__)
+                self._emit(_parse(value), value, self._carried[value])
+            return ast.Name(self._carried[value], ast.Load())
         literal = _literal(value)
         if literal is None:
             raise LawError(
                 f"{self.owner} uses '{name}', a {type(value).__name__}; a law may use only "
                 "numbers, tuples of numbers, module-level functions, math and np"
             )
-        carried = f"{self.prefix}{name}"
-        if f"{carried} = {literal}" not in self.definitions:
-            self.definitions.append(f"{carried} = {literal}")
-        return ast.Name(carried, ast.Load())
+        # By name and value: constants of one name from two modules must not mix.
+        if (name, literal) not in self._carried:
+            self._carried[name, literal] = self._new_name(name)
+            self.definitions.append(f"{self._carried[name, literal]} = {literal}")
+        return ast.Name(self._carried[name, literal], ast.Load())
+
+    def _new_name(self, name: str) -> str:
+        """Name under which something is carried; no two things share one."""
+        taken = set(self._carried.values())
+        carried, count = f"{self.prefix}{name}", 1
+        while carried in taken:
+            count += 1
+            carried = f"{self.prefix}{name}_{count}"
+        return carried
+
+
+class _Unannotated(ast.NodeTransformer):
+    """Annotated assignments become plain ones; bare annotations vanish."""
+
+    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST | None:
+        if node.value is None:
+            return None
+        return ast.Assign([node.target], node.value)
 
 
 class _Renamer(ast.NodeTransformer):
@@ -108,6 +177,8 @@ def _parse(function: Callable[..., Any]) -> ast.FunctionDef:
     tree = ast.parse(text).body[0]
     if not isinstance(tree, ast.FunctionDef):
         raise LawError(f"{function.__qualname__} must be written with 'def'")
+    if tree.args.posonlyargs or tree.args.kwonlyargs or tree.args.vararg or tree.args.kwarg:
+        raise LawError(f"{function.__qualname__} must take plain arguments only")
     return tree
 
 
@@ -131,6 +202,9 @@ def _globals_used(
 ) -> dict[str, Any]:
     """Names a function takes from outside itself, with their values."""
     local = set(function.__code__.co_varnames) | set(function.__code__.co_cellvars)
+    for node in ast.walk(tree):  # a comprehension's own variables
+        if isinstance(node, ast.comprehension):
+            local |= {item.id for item in ast.walk(node.target) if isinstance(item, ast.Name)}
     closure = inspect.getclosurevars(function)
     used = {}
     for node in _body_nodes(tree):
@@ -150,15 +224,17 @@ def _globals_used(
 
 def _body_nodes(tree: ast.FunctionDef) -> list[ast.AST]:
     """All nodes of a function but its annotations and decorators."""
-    roots = [*tree.body, *tree.args.defaults, *tree.args.kw_defaults]
+    waiting: list[ast.AST | None] = [*tree.body, *tree.args.defaults, *tree.args.kw_defaults]
     found = []
-    for root in roots:
-        if root is not None:
-            found += [
-                node
-                for node in ast.walk(root)
-                if not (isinstance(node, ast.AnnAssign) and node.value is None)
-            ]
+    while waiting:
+        node = waiting.pop()
+        if node is None:
+            continue
+        found.append(node)
+        children = list(ast.iter_child_nodes(node))
+        if isinstance(node, ast.AnnAssign):
+            children.remove(node.annotation)
+        waiting += children
     return found
 
 
@@ -166,10 +242,11 @@ def _library_name(name: str, value: Any) -> str | None:
     """``math`` and ``np``, or a function or constant of theirs, under its canonical name."""
     if value is math or value is np:
         return "math" if value is math else "np"
-    if getattr(math, name, None) is value and callable(value):
-        return f"math.{name}"
-    if getattr(np, name, None) is value and callable(value):
-        return f"np.{name}"
+    if callable(value):
+        for module, prefix in ((math, "math"), (np, "np")):
+            own = getattr(value, "__name__", name)
+            if getattr(module, own, None) is value:
+                return f"{prefix}.{own}"
     return None
 
 

@@ -1,0 +1,180 @@
+"""The last full cycle of a run in the units of the figures, and curves of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from saleg.errors import SalegError
+from saleg.plotting.style import (
+    APART,
+    COLOURS,
+    DOTTED,
+    MARKERS,
+    TRANSLATOR_COLOUR,
+    Stroke,
+    marker,
+)
+from saleg.status import Status
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+    from saleg.results import Run
+
+#: Relative difference beyond which motored and actual pressure are two.
+SAME_PRESSURE = 1e-6
+
+
+class NoCycle(SalegError, ValueError):
+    """A run without what a figure shows: a full cycle, an earlier one, or fuel."""
+
+
+class Quantity(NamedTuple):
+    """A column of the history as an axis shows it."""
+
+    label: str
+    column: str
+    scale: float
+    sided: bool = False
+
+
+TIME = Quantity("time in the cycle [ms]", "t", 1e3)
+POSITION = Quantity("position [mm]", "x", 1e3)
+VELOCITY = Quantity("velocity [m/s]", "v", 1.0)
+ACCELERATION = Quantity("acceleration [km/s$^2$]", "a", 1e-3)
+VOLUME = Quantity("volume [cm$^3$]", "V", 1e6, sided=True)
+PRESSURE = Quantity("pressure [bar]", "p", 1e-5, sided=True)
+MOTORED = Quantity("motored pressure [bar]", "p_motored", 1e-5, sided=True)
+HEAT_FLOW = Quantity("heat flow to the walls [kW]", "heat_loss", 1e-3, sided=True)
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """The last full cycle of a run, left dead centre to left dead centre.
+
+    Attributes
+    ----------
+    run : Run
+        The run it belongs to.
+    strokes : ndarray of STROKE_RECORD, shape (2,)
+    history : DataFrame
+        SI, one row per instant, two at an event (before and after).
+    events : DataFrame
+    """
+
+    run: Run
+    strokes: np.ndarray
+    history: pd.DataFrame
+    events: pd.DataFrame
+
+    @property
+    def period(self) -> float:
+        """Duration [s]."""
+        return float(self.strokes["duration"].sum())
+
+    def __call__(self, quantity: Quantity, side: str = "left") -> np.ndarray:
+        """Values of a quantity in the unit of its label; time from the start of the cycle."""
+        name = f"{quantity.column}_{side}" if quantity.sided else quantity.column
+        values = self.history[name].to_numpy()
+        if quantity is TIME:
+            values = values - values[0]
+        return quantity.scale * values
+
+    def rows_of(self, events: pd.DataFrame) -> np.ndarray:
+        """Rows of the history just before events."""
+        return np.searchsorted(self.history["t"].to_numpy(), events["t"].to_numpy())
+
+    def titled(self, title: str) -> str:
+        """The title, with a warning if the run did not end well."""
+        well = self.run.status in (Status.STEADY, Status.COMPLETED)
+        return title if well else f"{title} (the run ended: {self.run.status})"
+
+    def has_motored_pressure(self) -> bool:
+        """Whether the motored pressure was integrated and differs from the actual one."""
+        return any(
+            bool((np.abs(self(MOTORED, side) / self(PRESSURE, side) - 1.0) > SAME_PRESSURE).any())
+            for side in COLOURS
+        )
+
+
+def last_cycle(run: Run) -> Cycle:
+    """The last full cycle of a run.
+
+    Raises
+    ------
+    NoCycle
+        If there is none.
+    """
+    orbit = run.orbit
+    if orbit is None or orbit.history is None or len(orbit.strokes) < 2:
+        raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
+    return Cycle(run, orbit.strokes, orbit.history, orbit.events)
+
+
+def draw_sides(
+    ax: Axes,
+    cycle: Cycle,
+    across: Quantity,
+    up: Quantity,
+    strokes: dict[str, Stroke] = APART,
+    *,
+    motored: bool = False,
+) -> None:
+    """Curves of both chambers with their events, and of the motored pressure if there is one."""
+    dotted = motored and cycle.has_motored_pressure()
+    for side, stroke in strokes.items():
+        x, colour = cycle(across, side), COLOURS[side]
+        if dotted:
+            _draw_motored(ax, cycle, x, side)
+        look: dict[str, Any] = {"color": colour, "linestyle": stroke.line}
+        ax.plot(x, cycle(up, side), linewidth=stroke.width, label=side, **look)
+    if dotted:
+        ax.plot([], [], color="0.4", linestyle=DOTTED["left"], linewidth=1.8, label="motored")
+    scales = {side: stroke.marker_scale for side, stroke in strokes.items()}
+    _mark(ax, cycle, across, up, scales)
+    ax.set_xlabel(across.label)
+    ax.set_ylabel(up.label)
+
+
+def draw_translator(ax: Axes, cycle: Cycle, across: Quantity, up: Quantity) -> None:
+    """The one curve of the translator, with the events of both chambers."""
+    ax.plot(cycle(across), cycle(up), color=TRANSLATOR_COLOUR, linewidth=1.6, label="_translator")
+    for side, colour in COLOURS.items():
+        ax.plot([], [], color=colour, marker="o", linestyle="none", label=side)
+    _mark(ax, cycle, across, up, {})
+    ax.set_xlabel(across.label)
+    ax.set_ylabel(up.label)
+
+
+def _draw_motored(ax: Axes, cycle: Cycle, x: np.ndarray, side: str) -> None:
+    """Dots along both strokes from the side's dead centre on, where way in and out coincide."""
+    turn = int(np.argmax(cycle(POSITION)))
+    there, back = slice(None, turn + 1), slice(turn, None)
+    pressure = cycle(MOTORED, side)
+    for part, backward in ((there, side == "right"), (back, side == "left")):
+        order = slice(None, None, -1 if backward else 1)
+        ax.plot(
+            x[part][order],
+            pressure[part][order],
+            color=COLOURS[side],
+            linestyle=DOTTED[side],
+            linewidth=1.8,
+            label=f"_motored {side}",
+        )
+
+
+def _mark(ax: Axes, cycle: Cycle, across: Quantity, up: Quantity, scales: dict[str, float]) -> None:
+    """Small markers, one shape per kind of event, in the colour (and size) of their side."""
+    for kind, shape in MARKERS.items():
+        of_kind = cycle.events[cycle.events["event"] == kind]
+        for side, colour in COLOURS.items():
+            rows = cycle.rows_of(of_kind[of_kind["side"] == side])
+            if len(rows):
+                look = marker(shape, colour, scales.get(side, 1.0))
+                ax.plot(cycle(across, side)[rows], cycle(up, side)[rows], **look)
+        if len(of_kind):
+            ax.plot([], [], **marker(shape, "0.6"), label=kind)

@@ -1,0 +1,124 @@
+"""Where the fuel's energy went: the flows, and a pie of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from saleg.plotting.cycle import NoCycle
+from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from saleg.performance import EnergyBalance
+    from saleg.results import Run
+
+#: Share of the fuel energy below which a flow is not drawn.
+VISIBLE = 1e-3
+
+FLOW_COLOURS = {
+    "electrical output": ALTERNATOR_COLOUR,
+    "alternator loss": "#7CC7B2",
+    "friction": FRICTION_COLOUR,
+    "exhaust": "#8A8F98",
+    "heat transfer": "#CC6677",
+    "unburnt fuel": "#B8A9C9",
+    "stored energy": "#88B7D5",
+    "stored fuel": "#C9BFA0",
+    "port work": "#C0C4CA",
+}
+
+
+def energy_flows(balance: EnergyBalance) -> dict[str, float]:
+    """Where the fuel's energy went [J]; what came from elsewhere is negative.
+
+    Parameters
+    ----------
+    balance : EnergyBalance
+
+    Returns
+    -------
+    dict of str to float
+        All terms of the balance. None is a difference: they add up to the fuel energy as well as
+        the balance closes.
+    """
+    return {
+        "electrical output": balance.electrical,
+        "alternator loss": balance.alternator_loss,
+        "friction": balance.friction,
+        "exhaust": balance.exhaust,
+        "heat transfer": balance.heat_transfer,
+        "unburnt fuel": balance.unburnt,
+        "stored energy": balance.stored,
+        "stored fuel": balance.stored_fuel,
+        "port work": -balance.port_work,
+    }
+
+
+def balance_of(run: Run) -> EnergyBalance:
+    """The energy balance of a run's last full cycle, with fuel in it.
+
+    Raises
+    ------
+    NoCycle
+        If there is none.
+    """
+    balance = run.energy
+    if balance is None:
+        reason = "needs a full cycle and a stroke before it"
+        raise NoCycle(f"no energy balance to draw: it {reason} ({run.message})")
+    if balance.fuel <= 0.0:
+        raise NoCycle("no energy balance to draw: the last full cycle had no fresh fuel")
+    return balance
+
+
+def visible_flows(balance: EnergyBalance) -> dict[str, float]:
+    """The flows that are large enough to be seen [J]."""
+    least = VISIBLE * balance.fuel
+    return {name: flow for name, flow in energy_flows(balance).items() if abs(flow) >= least}
+
+
+def joules(energy: float) -> str:
+    """An energy in words, to three digits or to the joule."""
+    return f"{energy:.0f} J" if abs(energy) >= 100.0 else f"{energy:.3g} J"
+
+
+def energy_pie(run: Run, ax: Axes | None = None) -> Axes:
+    """Draw where the fuel's energy went in the last full cycle [%] (Figure 41 of the thesis).
+
+    Parameters
+    ----------
+    run : Run
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    NoCycle
+        If the run completed no full cycle after its first stroke, if that had no fresh fuel, or if
+        energy came from elsewhere than the fuel, which no pie can show.
+    """
+    balance = balance_of(run)
+    flows = visible_flows(balance)
+    gained = [name for name, flow in flows.items() if flow < 0.0]
+    if gained:
+        raise NoCycle(
+            f"no pie can show a gain ({', '.join(gained)}): draw energy_sankey, or simulate until "
+            "the engine runs steadily"
+        )
+    ax = axes_or_new(ax, 5.6, 4.4)
+    ax.pie(
+        list(flows.values()),
+        labels=[f"{name} {100.0 * flow / balance.fuel:.1f} %" for name, flow in flows.items()],
+        colors=[FLOW_COLOURS[name] for name in flows],
+        startangle=90.0,
+        counterclock=False,
+        wedgeprops={"edgecolor": "white", "linewidth": 1.2},
+        textprops={"fontsize": "small"},
+    )
+    ax.set_title(f"Fuel energy of a cycle: {joules(balance.fuel)}", fontsize="medium")
+    return ax

@@ -1,0 +1,119 @@
+"""Colours, axes and legends: what all figures share."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Colours of the two chambers in every plot (Okabe and Ito, safe for the colour-blind).
+LEFT_COLOUR = "#0072B2"
+RIGHT_COLOUR = "#D55E00"
+COLOURS = {"left": LEFT_COLOUR, "right": RIGHT_COLOUR}
+#: Colour of what belongs to the translator, hence to no side.
+TRANSLATOR_COLOUR = "#333333"
+#: Colours of what acts on the translator; energies that went there have the same.
+SPRING_COLOUR = "#E0A800"
+FRICTION_COLOUR = "#8C6D46"
+ALTERNATOR_COLOUR = "#009E73"
+
+#: Marker of each kind of event.
+MARKERS = {
+    "port closing": "v",
+    "port opening": "^",
+    "ignition": "*",
+    "end of combustion": "s",
+}
+
+
+class Stroke(NamedTuple):
+    """How the curve of one side is drawn."""
+
+    line: Any
+    width: float
+    marker_scale: float
+
+
+#: Distance from the axes to a legend below them, past ticks and label [pt].
+BELOW = 38.0
+
+#: Curves of both sides that lie apart.
+APART = {"left": Stroke("-", 1.6, 1.0), "right": Stroke("-", 1.6, 1.0)}
+#: Curves that may coincide: both show, one through the gaps of the other.
+COINCIDING = {"left": Stroke("-", 2.4, 1.7), "right": Stroke((0, (4, 2)), 1.4, 1.0)}
+#: Motored pressures; dots of both sides alternate where the curves coincide.
+DOTTED: dict[str, Any] = {"left": (0, (1, 2.6)), "right": (1.8, (1, 2.6))}
+
+
+def new_figure(width: float = 6.4, height: float = 4.4) -> Figure:
+    """Make an empty figure that needs no display.
+
+    It shows as the result of a notebook's cell.
+
+    Parameters
+    ----------
+    width, height : float
+        Size [inch].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    from saleg.plotting.figure import ShownFigure
+
+    figure = ShownFigure(figsize=(width, height), dpi=150, layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> Axes:
+    """The axes handed in, or those of a new figure of the given size [inch]."""
+    return new_figure(width, height).subplots() if ax is None else ax
+
+
+def marker(shape: str, colour: str, scale: float = 1.0) -> dict[str, Any]:
+    """How a single point is drawn."""
+    return {
+        "marker": shape,
+        "color": colour,
+        "markersize": scale * (9.0 if shape == "*" else 5.5),
+        "markeredgecolor": "white",
+        "markeredgewidth": 0.5,
+        "linestyle": "none",
+        "zorder": 3,
+    }
+
+
+def zero_lines(ax: Axes, *, x: bool = False, y: bool = False) -> None:
+    """Faint lines through zero of either axis."""
+    if x:
+        ax.axvline(0.0, color="0.75", linewidth=0.8, zorder=0)
+    if y:
+        ax.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
+
+
+def finish(ax: Axes, title: str, legend: str | None, columns: int = 1) -> Axes:
+    """Title, grid, frame and legend; the legend ``"below"`` stands under the axes."""
+    ax.set_title(title, fontsize="medium")
+    ax.grid(visible=True, color="0.92", linewidth=0.6)
+    ax.set_axisbelow(True)
+    for edge in ("top", "right"):
+        ax.spines[edge].set_visible(False)
+    if legend is None:
+        return ax
+    look: dict[str, Any] = {"fontsize": "small", "framealpha": 1.0, "edgecolor": "none"}
+    if legend == "below":
+        from matplotlib.transforms import ScaledTranslation
+
+        down = ScaledTranslation(0.0, -BELOW / 72.0, ax.figure.dpi_scale_trans)
+        look |= {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 0.0}
+        look |= {"bbox_transform": ax.transAxes + down}
+    else:
+        look |= {"loc": legend}
+    handles, labels = ax.get_legend_handles_labels()
+    ax.legend(handles, labels, ncols=columns, **look)
+    return ax

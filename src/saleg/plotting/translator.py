@@ -1,0 +1,235 @@
+"""Figures of the translator: its motion, what acts on it, and the power it delivers."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from saleg.plotting.cycle import (
+    ACCELERATION,
+    POSITION,
+    TIME,
+    VELOCITY,
+    Cycle,
+    NoCycle,
+    draw_translator,
+    last_cycle,
+)
+from saleg.plotting.style import (
+    ALTERNATOR_COLOUR,
+    FRICTION_COLOUR,
+    LEFT_COLOUR,
+    RIGHT_COLOUR,
+    SPRING_COLOUR,
+    TRANSLATOR_COLOUR,
+    axes_or_new,
+    finish,
+    zero_lines,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from saleg.results import Run
+
+
+def velocity_position(run: Run, ax: Axes | None = None) -> Axes:
+    """Draw velocity [m/s] over position [mm] of the translator (Figure 36 of the thesis).
+
+    Parameters
+    ----------
+    run : Run
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    NoCycle
+        If the run completed no full cycle.
+    """
+    cycle = last_cycle(run)
+    ax = axes_or_new(ax)
+    zero_lines(ax, x=True, y=True)
+    draw_translator(ax, cycle, POSITION, VELOCITY)
+    return finish(ax, cycle.titled("Velocity and position"), "center")
+
+
+def acceleration_velocity(run: Run, ax: Axes | None = None) -> Axes:
+    """Draw acceleration [km/s^2] over velocity [m/s] of the translator (Figure 37 of the thesis).
+
+    Parameters
+    ----------
+    run : Run
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    NoCycle
+        If the run completed no full cycle.
+    """
+    cycle = last_cycle(run)
+    ax = axes_or_new(ax)
+    zero_lines(ax, x=True, y=True)
+    draw_translator(ax, cycle, VELOCITY, ACCELERATION)
+    return finish(ax, cycle.titled("Acceleration and velocity"), "center")
+
+
+def forces(run: Run, ax: Axes | None = None) -> Axes:
+    """Draw the forces on the translator [kN], positive to the right, over time [ms].
+
+    Pressure of the gas on either crown, springs, friction and alternator; their sum is mass times
+    acceleration, drawn as inertia (Figure 93 of the thesis).
+
+    Parameters
+    ----------
+    run : Run
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    NoCycle
+        If the run completed no full cycle.
+    """
+    cycle = last_cycle(run)
+    ax = axes_or_new(ax, height=4.8)
+    history, engine = cycle.history, run.engine
+    left, right = (math.pi * chamber.bore**2 / 4.0 for chamber in engine.chambers)
+    time = cycle(TIME)
+    zero_lines(ax, y=True)
+    for label, force, colour, line in (
+        ("gas left", left * history["p_left"], LEFT_COLOUR, "-"),
+        ("gas right", -right * history["p_right"], RIGHT_COLOUR, "-"),
+        ("springs", history["spring_force"], SPRING_COLOUR, "-"),
+        ("alternator", -history["alternator_force"], ALTERNATOR_COLOUR, "-"),
+        ("friction", -history["friction_force"], FRICTION_COLOUR, "-"),
+        (
+            "inertia (sum)",
+            engine.translator.mass * history["a"],
+            TRANSLATOR_COLOUR,
+            (0, (5, 1.5)),
+        ),
+    ):
+        ax.plot(time, 1e-3 * force.to_numpy(), color=colour, linestyle=line, label=label)
+    ax.set_xlim(0.0, TIME.scale * cycle.period)
+    ax.set_xlabel(TIME.label)
+    ax.set_ylabel("force to the right [kN]")
+    return finish(ax, cycle.titled("Forces on the translator"), "below", columns=3)
+
+
+def power(run: Run, ax: Axes | None = None) -> Axes:
+    """Draw electrical power [kW] over time [ms], with its mean and RMS (Figure 40 of the thesis).
+
+    Parameters
+    ----------
+    run : Run
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    NoCycle
+        If the run completed no full cycle.
+    """
+    cycle = last_cycle(run)
+    ax = axes_or_new(ax)
+    strokes, period = cycle.strokes, cycle.period
+    mean = 1e-3 * float(strokes["electrical_energy"].sum()) / period
+    rms = 1e-3 * math.sqrt(float(strokes["electrical_squared"].sum()) / period)
+    instant = 1e-3 * cycle.history["electrical_power"].to_numpy()
+    ax.plot(cycle(TIME), instant, color=ALTERNATOR_COLOUR, linewidth=1.6, label="electrical power")
+    ax.axhline(mean, color=TRANSLATOR_COLOUR, linewidth=1.2, label=f"mean {mean:.4g} kW")
+    ax.axhline(
+        rms, color=TRANSLATOR_COLOUR, linewidth=1.2, linestyle="--", label=f"RMS {rms:.4g} kW"
+    )
+    if instant.min() >= 0.0:
+        ax.set_ylim(bottom=0.0)
+    zero_lines(ax, y=True)
+    ax.set_xlim(0.0, TIME.scale * period)
+    ax.set_xlabel(TIME.label)
+    ax.set_ylabel("electrical power [kW]")
+    return finish(ax, cycle.titled("Electrical power"), "below", columns=3)
+
+
+def efficiency(run: Run, ax: Axes | None = None, *, cycles: int = 10) -> Axes:
+    """Draw the running efficiency [%] over time [ms] (Figure 40 of the thesis).
+
+    The running efficiency is a cumulative one: electrical energy over the fuel energy of all fresh
+    charges, both counted from the left dead centre that began the last `cycles` cycles. It drops
+    when a port closes on a fresh charge, whose fuel counts at once, and climbs while the alternator
+    delivers. At the end of the cycle it is the efficiency of those cycles. The straight line is
+    the efficiency of the last cycle alone. The more cycles, the narrower the band; the thesis does
+    not say how it counted.
+
+    Parameters
+    ----------
+    run : Run
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+    cycles : int
+        Cycles counted, the drawn one among them; fewer where the run has fewer.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    NoCycle
+        If the run completed no full cycle or its last one had no fresh fuel.
+    """
+    cycle = last_cycle(run)
+    spent = float(cycle.strokes["fresh_fuel_energy"].sum())
+    if spent <= 0.0:
+        raise NoCycle("no efficiency to draw: the last full cycle had no fresh fuel")
+    ax = axes_or_new(ax)
+    cycles = min(max(int(cycles), 1), len(run.cycles))
+    running = 100.0 * _running_efficiency(cycle, cycles)
+    mean = 100.0 * float(cycle.strokes["electrical_energy"].sum()) / spent
+    label = f"running efficiency over {cycles} cycles" if cycles > 1 else "running efficiency"
+    ax.plot(cycle(TIME), running, color=ALTERNATOR_COLOUR, linewidth=1.6, label=label)
+    label = f"efficiency of the cycle {mean:.4g} %"
+    ax.axhline(mean, color=TRANSLATOR_COLOUR, linewidth=1.2, label=label)
+    ax.set_xlim(0.0, TIME.scale * cycle.period)
+    ax.set_xlabel(TIME.label)
+    ax.set_ylabel("efficiency [%]")
+    return finish(ax, cycle.titled("Efficiency"), "below", columns=2)
+
+
+def _running_efficiency(cycle: Cycle, cycles: int) -> np.ndarray:
+    """Electrical over fuel energy since the start of the last `cycles` cycles [-]."""
+    before = cycle.run.cycles.iloc[:-1].tail(cycles - 1)
+    t = cycle.history["t"].to_numpy()
+    watts = cycle.history["electrical_power"].to_numpy()
+    steps = 0.5 * (watts[1:] + watts[:-1]) * np.diff(t)
+    delivered = np.concatenate([[0.0], np.cumsum(steps)])
+    spent = np.zeros(len(t))
+    closings = cycle.events[cycle.events["event"] == "port closing"]
+    for row, moment, side in zip(
+        cycle.rows_of(closings), closings["t"], closings["side"], strict=True
+    ):
+        stroke = min(int(np.searchsorted(cycle.strokes["t"], moment)), len(cycle.strokes) - 1)
+        charge = cycle.strokes["fresh_fuel_energy"][stroke, 0 if side == "left" else 1]
+        spent[row + 1 :] += charge
+    delivered += float(before["electrical_energy"].sum())
+    spent += float(before["fuel_energy"].sum())
+    return np.divide(delivered, spent, out=np.full(len(t), np.nan), where=spent > 0.0)
