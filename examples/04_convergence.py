@@ -1,6 +1,6 @@
 """Tables 2-4 of the thesis regenerated, and where its first-order error comes from.
 
-    python examples/04_convergence.py [PICTURE]
+python examples/04_convergence.py [PICTURE]
 """
 
 import sys

@@ -18,7 +18,7 @@ from saleg.kernel.compose import _methods, kernel_for
 from saleg.laws import Friction, InstantExchange, LinearSprings, Springs
 from saleg.laws.base import ENGINE_SLOTS
 from saleg.simulate import SettingsError
-from saleg.start import AtRest
+from saleg.start import AtRest, MidpointVelocity
 
 
 def module(name, text, **names):
@@ -232,6 +232,15 @@ def test_a_law_that_returns_nan_is_a_step_failure(base):
 def test_an_engine_in_equilibrium_says_that_it_never_moved(base):
     run = saleg.simulate(base.replace(start=AtRest()), 0.1)
     assert "never moved" in run.message
+
+
+def test_motion_below_the_resolution_of_time_ends(base):
+    """Found by random engines: dead centres and ports within one instant, for ever."""
+    start = MidpointVelocity(frequency=170.0, factor=4.4e-129)
+    still = base.replace(start=start, port_closing=0.100, **{"intake.temperature": 688.0})
+    for stall_stroke in (0.01, 0.0):
+        run = saleg.simulate(still, 0.1, rtol=1e-6, stall_stroke=stall_stroke)
+        assert isinstance(run.status, saleg.Status)
 
 
 def test_runs_and_errors_travel_between_processes(base):

@@ -119,7 +119,7 @@ MISTAKES = [
     (["thesis-base", "--set", "bore="], "PATH=VALUE"),
     (["thesis-base", "--set", "bore=wide"], "bore = 'wide' [m]: must be a number"),
     (["thesis-base", "--set", "bore=-1"], "bore = -1.0 [m]: must be > 0"),
-    (["thesis-base", "--set", "bore=nan"], "bore = nan [m]: must be > 0"),
+    (["thesis-base", "--set", "bore=nan"], "bore = nan [m]: must be a finite number > 0"),
     (["thesis-base", "--set", "heat_transfer=Hohenburg"], "'Hohenberg'"),
     (["thesis-base", "--duration", "-1"], "duration = -1.0"),
     (["thesis-base", "--order", "7"], "order = 7: must be one of 1, 2, 3, 4, 5, 8"),

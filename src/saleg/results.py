@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,8 +19,10 @@ from saleg.tables import cycle_table, event_table, history_table
 if TYPE_CHECKING:
     import pandas as pd
 
+    from saleg.plotting import Plots
 
-@dataclass
+
+@dataclass(eq=False)
 class Run:
     """A simulated stretch of time.
 
@@ -45,7 +48,7 @@ class Run:
     status: Status
     message: str
     duration: float
-    strokes: np.ndarray
+    strokes: np.ndarray = field(repr=False)
     event_rows: np.ndarray = field(repr=False)
     history_rows: np.ndarray | None = field(repr=False)
     evaluations: int = 0
@@ -106,6 +109,57 @@ class Run:
         if start is None or start == 0:
             return None
         return EnergyBalance.between(self.strokes[start - 1], self.strokes[start : start + 2])
+
+    @property
+    def plot(self) -> Plots:
+        """Figures of the run: ``run.plot.pressure_volume()`` and so on; ``dir`` lists them."""
+        from saleg.plotting import Plots
+
+        return Plots(self)
+
+    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> None:
+        """Save the run with its engine, so that :meth:`load` gives an equal one.
+
+        Parameters
+        ----------
+        path : str or path
+            The suffix chooses the format: ``.npz``, ``.mat``, ``.h5``, ``.nc``; a name without one
+            is a folder of CSV tables. The file is there whole or not at all.
+        overwrite : bool
+            Replace what :meth:`save` put there earlier.
+
+        Raises
+        ------
+        RunFileError
+            If something is in the way, or cannot be written.
+        """
+        from saleg.export import save
+
+        save(self, path, overwrite=overwrite)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str], *, laws: Sequence[type] = ()) -> Run:
+        """Load a run; nothing is simulated again.
+
+        Parameters
+        ----------
+        path : str or path
+            File or folder :meth:`save` wrote.
+        laws : sequence of Law or Start classes, optional
+            Classes of your own that the engine uses.
+
+        Returns
+        -------
+        Run
+
+        Raises
+        ------
+        RunFileError
+            Naming the file and what is wrong with it.
+        """
+        from saleg.export import load
+
+        return load(path, laws=laws)
 
     def __str__(self) -> str:
         from saleg.report import describe_run

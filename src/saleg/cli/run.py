@@ -6,9 +6,10 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from saleg.cli.folder import new_folder, write_run
+from saleg.cli.folder import FORMATS, new_folder, write_run
 from saleg.engine import Engine
 from saleg.errors import SalegError
+from saleg.export.formats import check
 from saleg.files import SLOTS, laws_by_slot, nearest, read_toml
 from saleg.machines import CATALOGUE
 from saleg.results import Run
@@ -39,6 +40,7 @@ def add_to(commands: Any) -> None:
     add("--step", type=float, metavar="S", help="fixed step [s] (5e-6)")
     add("--rtol", type=float, metavar="R", help="tolerance of the adaptive method (1e-8)")
     add("--out", type=Path, metavar="DIR", help="write plots, tables and engine to a new folder")
+    add("--format", metavar="F,...", help=f"formats in DIR, of {', '.join(FORMATS)} (csv)")
     add("--force", action="store_true", help="replace DIR if it holds an earlier run")
     parser.set_defaults(command=run)
 
@@ -46,6 +48,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> bool:
     """Simulate, report and write; returns whether the run ended well."""
     engine = changed(load(options.machine), options.changes)
+    wanted = _formats(options)
     settings = _settings(options)
     if options.out is None:
         result = simulate(engine, options.duration, **settings)
@@ -54,7 +57,7 @@ def run(options: argparse.Namespace) -> bool:
         engine.validate()
         with new_folder(options.out, options.force) as folder:
             result = simulate(engine, options.duration, **settings)
-            names = write_run(result, folder)
+            names = write_run(result, folder, wanted)
         print(report(result))
         print(f"\nwrote {options.out}: {', '.join(names)}")
     return result.status in (Status.STEADY, Status.COMPLETED)
@@ -101,6 +104,21 @@ def _law(name: str, slot: str) -> Any:
         return laws[name]()
     hint = nearest(name, laws) or f"; there are {', '.join(laws)}"
     raise CommandError(f"no law '{name}' for {slot}{hint}")
+
+
+def _formats(options: argparse.Namespace) -> list[str]:
+    """Formats to write, all of them at hand."""
+    if options.format is None:
+        return ["csv"]
+    if options.out is None:
+        raise CommandError("--format belongs to --out DIR")
+    wanted = [word.strip() for word in options.format.split(",")]
+    for word in wanted:
+        if word not in FORMATS:
+            hint = nearest(word, FORMATS) or f"; there are {', '.join(FORMATS)}"
+            raise CommandError(f"no format '{word}'{hint}")
+        check(FORMATS[word])
+    return wanted
 
 
 def _settings(options: argparse.Namespace) -> dict[str, Any]:

@@ -115,7 +115,7 @@ def check_laws(engine: Engine) -> None:
     """
     for laws in laws_of(engine).values():
         for law in laws.values():
-            check_law(type(law))
+            check_law(type(law))  # type: ignore[arg-type]
 
 
 def kernel_for(engine: Engine, modules: tuple[str, ...] = INTEGRATOR) -> Kernel:

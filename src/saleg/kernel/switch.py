@@ -211,7 +211,6 @@ def begin_stroke(E, C, y, peaks):
         C[side].ignition_height = 0.0
     E.x_dead_centre = y[X]
     E.t_dead_centre = E.t
-    E.steps_at_dead_centre = E.steps
 
 
 @compiled
@@ -295,6 +294,10 @@ def turn(P, E, C, y, peaks, strokes, filled):
         filled[0] += 1
         regulate(P, E, C, y)
         E.strokes += 1.0
+        E.steps_at_dead_centre = E.steps
+    elif isfinite(E.x_dead_centre):
+        E.strokes += 1.0
+        E.stroke = 0.0  # two dead centres at one instant: the motion has died away
     E.direction = -E.direction
     begin_stroke(E, C, y, peaks)
 

@@ -1,0 +1,58 @@
+"""HDF5: a group per table, a dataset with its unit per column; the texts are attributes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from saleg.export.description import Column, Columns, Description
+from saleg.export.extras import extra
+
+KIND = "HDF5 file"
+NEEDS = ("h5py",)
+
+
+def attributes(column: Column) -> dict[str, Any]:
+    """Unit of a column, and the words for its codes as netCDF's conventions (CF) have them."""
+    if not column.words:
+        return {"units": column.unit} if column.unit else {}
+    return {
+        "flag_values": np.arange(len(column.words)),
+        "flag_meanings": " ".join(word.replace(" ", "_") for word in column.words),
+    }
+
+
+def write(description: Description, path: Path) -> None:
+    """Write a description; columns go to the file one by one."""
+    with extra("h5py").File(path, "w", track_order=True) as file:
+        file.attrs.update(description.texts)
+        for table, columns in description.tables.items():
+            group = file.create_group(table, track_order=True)
+            for name, column in columns.items():
+                group.create_dataset(name, data=column.values).attrs.update(attributes(column))
+
+
+class _Stored:
+    """What an open file holds."""
+
+    is_exact = True
+
+    def __init__(self, file: Any):
+        self._file = file
+        self.engine_toml = str(file.attrs["engine_toml"])
+        self.run_json = str(file.attrs["run_json"])
+
+    def table(self, name: str) -> Columns:
+        """Columns of a table, read one by one."""
+        return self._file[name]
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[_Stored]:
+    """Open a file for reading, column by column."""
+    with extra("h5py").File(path, "r") as file:
+        yield _Stored(file)

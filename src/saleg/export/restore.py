@@ -1,0 +1,137 @@
+"""From what a file holds back to the run that was saved."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.errors import SalegError
+from saleg.export.description import (
+    FORMAT,
+    FORMAT_VERSION,
+    PLAIN,
+    Stored,
+    checksum,
+    checksum_of_texts,
+)
+from saleg.export.place import RunFileError
+from saleg.export.units import LAYOUTS
+from saleg.files import read_toml
+from saleg.results import Run
+from saleg.status import Status
+
+
+def from_tables(stored: Stored, laws: Sequence[type] = ()) -> Run:
+    """Make a run from its description; nothing is simulated again.
+
+    Parameters
+    ----------
+    stored : Stored
+        A :class:`~saleg.export.description.Description`, or what a file holds.
+    laws : sequence of Law or Start classes, optional
+        Classes of your own that the engine uses.
+
+    Returns
+    -------
+    Run
+        Equal to the one described, its last cycle included.
+
+    Raises
+    ------
+    RunFileError
+        Saying what is missing or strange.
+    """
+    facts = _facts(stored)
+    engine = _engine(stored.engine_toml, facts["laws_not_of_saleg"], laws)
+    rows = {name: _rows(stored, name, count) for name, count in facts["rows"].items()}
+    if stored.is_exact:
+        for name, held in rows.items():
+            _agree(checksum(held), facts["checksums"][name], name)
+    orbit = None
+    if facts["orbit"] is not None:
+        tables = (rows["orbit_strokes"], rows["orbit_events"], rows.get("orbit"))
+        orbit = _run(engine, facts["orbit"], *tables)
+    run = _run(engine, facts, rows["strokes"], rows["events"], rows.get("history"))
+    if orbit is not None:
+        run.replay = lambda: orbit
+    return run
+
+
+def _run(
+    engine: Engine,
+    facts: dict[str, Any],
+    strokes: np.ndarray,
+    events: np.ndarray,
+    history: np.ndarray | None,
+) -> Run:
+    return Run(
+        engine=engine,
+        status=Status(facts["status"]),
+        strokes=strokes,
+        event_rows=events,
+        history_rows=history,
+        **{name: facts[name] for name in PLAIN},
+    )
+
+
+def _facts(stored: Stored) -> dict[str, Any]:
+    """The facts of a run, once it is sure that this version understands them."""
+    facts = json.loads(stored.run_json)
+    if not isinstance(facts, dict) or facts.get("format") != FORMAT:
+        raise RunFileError(f"it is not a {FORMAT}")
+    if facts.get("version") != FORMAT_VERSION:
+        raise RunFileError(
+            f"it has version {facts.get('version')} of the format, written by saleg "
+            f"{facts.get('saleg')}; this saleg reads version {FORMAT_VERSION}"
+        )
+    if stored.is_exact:
+        text = checksum_of_texts(facts, stored.engine_toml)
+        _agree(text, facts["checksum_of_texts"], "engine and facts")
+    return facts
+
+
+def _agree(found: int, written: int, what: str) -> None:
+    if found != written:
+        raise RunFileError(f"it is damaged: {what} are not what was saved")
+
+
+def _engine(text: str, needed: Sequence[str], laws: Sequence[type]) -> Engine:
+    """Engine from its text; a law of the user's must be handed in, even if saleg has its name."""
+    given = {law.__name__ for law in laws}
+    missing = [name for name in needed if name not in given]
+    if missing:
+        raise RunFileError(
+            f"its engine uses {', '.join(missing)}, not among the laws of saleg; "
+            f"hand in the class: laws=[{', '.join(missing)}]"
+        )
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "engine.toml"
+        path.write_text(text, encoding="utf-8", newline="\n")
+        try:
+            return read_toml(path, [law for law in laws if law.__name__ in needed])
+        except SalegError as error:
+            raise RunFileError(str(error).replace(str(path), "its engine")) from None
+
+
+def _rows(stored: Stored, table: str, count: int) -> np.ndarray:
+    """Records of a table, filled column by column."""
+    dtype, places = LAYOUTS[table]
+    columns = stored.table(table)
+    rows = np.zeros(0, dtype)
+    for name, place in places.items():
+        values = columns[name][()]
+        if values.shape != (count,):
+            raise RunFileError(
+                f"{table}.{name} should have {count} rows but has {values.size}: "
+                "it was cut short or changed"
+            )
+        if len(rows) != count:  # not before a column of that length was seen
+            rows = np.empty(count, dtype)
+        np.copyto(place.of(rows), values, casting="safe")
+    return rows
