@@ -153,4 +153,5 @@ def _final_state(running: RunningEngine) -> State:
     E = np.zeros(1, layout.ENGINE_RECORD)
     E["t"], E["stroke"] = running.t, running.machine.stroke
     E["maximum_stroke"] = running.engine.maximum_stroke
+    E["direction"] = running.machine.direction
     return State(E, np.zeros(2, layout.CHAMBER_RECORD), running.y, running.peaks)
