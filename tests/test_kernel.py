@@ -254,7 +254,7 @@ def test_history_is_decimated_but_keeps_events(base):
     full = saleg.simulate(base, 0.1, history=1)
     some = saleg.simulate(base, 0.1, history=10)
     assert len(some.history) < 0.5 * len(full.history)
-    assert set(full.events["t"]).issubset(set(some.history["t"]) | set(full.history["t"]))
+    assert set(some.events["t"]) <= set(some.history["t"])
     assert saleg.simulate(base, 0.05).history is None
 
 
