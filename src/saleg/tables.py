@@ -67,6 +67,7 @@ HISTORY_UNITS = {
     "alternator_force": "N",
     "electrical_power": "W",
     "load_weight": "-",
+    "current": "A",
 }
 
 

@@ -29,9 +29,9 @@ def cached(function: Function) -> Function:
 #: halves the time to compile.
 COMPILED_HEADER = """\
 inline = numba.njit(
-    forceinline=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+    forceinline=True, error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
 )
-compiled = numba.njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
+compiled = numba.njit(error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 """
-CACHED_ON_DISK = 'cached = numba.njit(error_model="numpy", nogil=True, cache=True)\n'
-CACHED_IN_MEMORY = 'cached = numba.njit(error_model="numpy", nogil=True)\n'
+CACHED_ON_DISK = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=True)\n'
+CACHED_IN_MEMORY = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True)\n'

@@ -11,7 +11,9 @@ from saleg.laws.base import (
     HeatTransfer,
     Ignition,
     Law,
+    Misfires,
     Springs,
+    Validity,
 )
 from saleg.laws.friction import BlairViscousFriction, FrictionShare, ViscousFriction
 from saleg.laws.gas_exchange import InstantExchange
@@ -19,6 +21,7 @@ from saleg.laws.gas_properties import ChangGas, ConstantGamma
 from saleg.laws.heat_release import Wiebe
 from saleg.laws.heat_transfer import Hohenberg, NoHeatTransfer
 from saleg.laws.ignition import CFRIgnition
+from saleg.laws.misfires import NoMisfires, ScheduledMisfires
 from saleg.laws.springs import LinearSprings
 
 __all__ = [
@@ -41,10 +44,14 @@ __all__ = [
     "Law",
     "LinearLoad",
     "LinearSprings",
+    "Misfires",
     "Motion",
     "NoHeatTransfer",
+    "NoMisfires",
+    "ScheduledMisfires",
     "Springs",
     "Stroke",
+    "Validity",
     "ViscousFriction",
     "Wiebe",
 ]
