@@ -115,14 +115,14 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     )
     E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
-    E.current_scale = _current_scale(engine, E)
+    E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
 
 
-def _current_scale(engine: Engine, E: Any) -> float:
-    """Current at which the alternator balances at natural speed [A]; 1 if it has none."""
-    weight = max(E.load_weight, 1.0)
+def current_scale(engine: Engine, load_weight: float, speed: float) -> float:
+    """Current at which the alternator balances at some speed [m/s], in A; 1 if it has none."""
+    weight = max(load_weight, 1.0)
     idle, loaded = (
-        engine.alternator.current_rate(weight, Motion(0.0, 0.0, E.speed_scale, 1.0, current))
+        engine.alternator.current_rate(weight, Motion(0.0, 0.0, speed, 1.0, current))
         for current in (0.0, 1.0)
     )
     return abs(idle / (idle - loaded)) if idle != 0.0 and idle != loaded else 1.0

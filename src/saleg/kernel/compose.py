@@ -109,6 +109,12 @@ def laws_of(engine: Engine) -> dict[str, dict[str, Law]]:
     }
 
 
+def needs_motored_pressure(engine: Engine) -> bool:
+    """Whether a law of the engine looks at the motored pressure."""
+    laws = (slots_of(chamber)["heat_transfer"] for chamber in engine.chambers)
+    return any(law.needs_motored_pressure for law in laws)  # type: ignore[attr-defined]
+
+
 def check_laws(engine: Engine) -> None:
     """Refuse laws that cannot become part of a kernel, before any of them is called.
 

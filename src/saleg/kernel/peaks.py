@@ -170,10 +170,3 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
     elif r < 0.0 and s > 0.0:
         rest = top_of_cubic(q0, r0, q, r, s)
         peaks[peak] = max(peaks[peak], cubic(q0, r0, q, r, s, rest))
-
-
-@compiled
-def watch_point(C, y, dy, peaks):
-    """Take the present values into account."""
-    for peak in range(N_PEAKS):
-        peaks[peak] = max(peaks[peak], watched(C, peak, y, dy))

@@ -19,7 +19,6 @@ from collections.abc import Mapping
 
 from saleg.kernel.aid import Aid
 
-
 #: Name of the additional argument, and of the constants in it.
 AID = "_aid"
 CONSTANTS = Aid._fields[3:]
