@@ -150,10 +150,11 @@ def comparison(run: Run) -> str | None:
     -------
     str or None
         An aligned table of the figures printed there, with deviations in percent, and an
-        explanation; None unless the engine is one of the thesis', unmodified.
+        explanation; None unless the engine is one of the thesis', unmodified, and completed a
+        cycle.
     """
     name = run.engine.name
-    if not is_published(run.engine):
+    if not is_published(run.engine) or run.last_cycle_strokes is None:
         return None
     columns = COLUMNS[name]
     head = f"  {'':<24} {'saleg':>10} {'':<6}"
