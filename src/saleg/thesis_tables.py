@@ -13,6 +13,8 @@ from saleg.machines import CATALOGUE
 from saleg.report import FIGURES
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from saleg.engine import Engine
     from saleg.results import Run
 
@@ -173,6 +175,11 @@ def comparison(run: Run) -> str | None:
 def is_published(engine: Engine) -> bool:
     """Whether an engine is one of the thesis', with nothing changed."""
     return engine.name in COLUMNS and engine == CATALOGUE[engine.name]()
+
+
+def is_of_base_case(study: pd.DataFrame) -> bool:
+    """Whether a study of :mod:`saleg.studies` is of the engine of Tables 2 to 4."""
+    return study.attrs.get("engine") == CATALOGUE["thesis-base"]().to_toml()
 
 
 def _beside(column: Column, figure: str, value: float) -> str:
