@@ -5,6 +5,7 @@ import time
 import numpy as np
 import pytest
 
+import saleg
 from helpers import bounce_engine
 from saleg import studies
 from saleg.errors import SalegError
@@ -164,3 +165,11 @@ def test_delay_plot_shows_the_printed_rows(base):
     assert labels == ["no delay", "2 steps late", "thesis, Table 2"]
     assert 36.9 in ax.lines[-1].get_ydata()
     assert "[%]" in ax.get_ylabel()
+    assert "[µs]" in ax.get_xlabel()
+    assert hasattr(ax.figure, "_repr_png_")  # shows in a notebook
+
+
+def test_delay_plot_of_another_engine_has_no_printed_rows(transient):
+    table = studies.delay_study(transient, [5e-6, 1e-5], [0, 2], duration=0.2)
+    ax = saleg.plotting.studies.delay(table)
+    assert [line.get_label() for line in ax.lines] == ["no delay", "2 steps late"]

@@ -14,7 +14,6 @@ from saleg.files import SLOTS, laws_by_slot, nearest, read_toml
 from saleg.machines import CATALOGUE
 from saleg.results import Run
 from saleg.simulate import simulate
-from saleg.status import Status
 
 
 class CommandError(SalegError, ValueError):
@@ -61,7 +60,7 @@ def run(options: argparse.Namespace) -> bool:
             names = write_run(result, folder, wanted)
         print(report(result))
         print(f"\nwrote {options.out}: {', '.join(names)}")
-    return result.status in (Status.STEADY, Status.COMPLETED)
+    return result.status.ended_well
 
 
 def load(name: str) -> Engine:
@@ -142,6 +141,5 @@ def report(result: Run) -> str:
     from saleg.report import describe_run
     from saleg.thesis_tables import comparison
 
-    well = result.status in (Status.STEADY, Status.COMPLETED)
-    table = comparison(result) if well else None
+    table = comparison(result) if result.status.ended_well else None
     return describe_run(result) + (f"\n\n{table}" if table else "")
