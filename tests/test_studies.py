@@ -49,7 +49,7 @@ def test_stop_time_matters_only_until_steady(base):
 
 
 def test_delay_of_two_steps_gives_the_rows_of_table_2(base):
-    """Stroke, peak and efficiency at 5 and 10 us, none of them fitted."""
+    """Stroke, peak and efficiency at 5 and 10 us, with one whole number fitted."""
     table = studies.delay_study(base, [5e-6, 1e-5], [2]).set_index("step")
     for step, row in table.iterrows():
         for name in ("stroke", "peak_pressure", "efficiency"):
