@@ -14,7 +14,7 @@ import saleg
 from saleg import InvalidEngine, LawError, UnknownPath
 from saleg.cli import main
 from saleg.errors import StartError
-from saleg.kernel.compose import _methods, kernel_for
+from saleg.kernel.compose import kernel_for, methods_text
 from saleg.laws import Friction, InstantExchange, LinearSprings, Springs
 from saleg.laws.base import ENGINE_SLOTS
 from saleg.simulate import SettingsError
@@ -35,7 +35,7 @@ def module(name, text, **names):
 
 
 def compiled(law, method):
-    text = "\n".join(_methods(type(law), method, "one", ENGINE_SLOTS[law.slot], None))
+    text = "\n".join(methods_text(type(law), method, "one", ENGINE_SLOTS[law.slot]))
     import math
 
     names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
@@ -210,7 +210,7 @@ class Comprehending(LinearSprings):
 
 def test_comprehensions_and_annotations_are_fine():
     law = Comprehending()
-    text = "\n".join(_methods(Comprehending, "force", "one", ENGINE_SLOTS["springs"], None))
+    text = "\n".join(methods_text(Comprehending, "force", "one", ENGINE_SLOTS["springs"]))
     names = {"inline": numba.njit(error_model="numpy")}
     exec(text, names)
     motion = saleg.laws.Motion(0.0, 2.0, 0.0, 1.0)

@@ -302,5 +302,5 @@ def test_composed_text_holds_the_law_as_written(base):
     from saleg.kernel.compose import kernel_for
 
     text = Path(kernel_for(base).module.__file__).read_text()
-    assert re.search(r"def both_heat_transfer_coefficient\(self, gas, charge\)", text)
+    assert re.search(r"def engine_springs_force\(self, motion\)", text)
     assert "from saleg" not in text

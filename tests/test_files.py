@@ -31,6 +31,8 @@ def instances(kind, **fixed):
     for item in dataclasses.fields(kind):
         if item.name in fixed:
             made[item.name] = fixed[item.name]
+        elif "series" in item.metadata:
+            made[item.name] = st.just(item.default)  # lengths and order go together
         elif "limits" in item.metadata:
             made[item.name] = numbers(item.metadata["limits"])
         elif item.name in parts:

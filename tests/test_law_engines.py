@@ -173,10 +173,10 @@ def test_a_motor_alone_swings_the_translator_up():
 def test_range_exits_are_data_and_in_the_summary():
     run = saleg.simulate(BASE, 0.3, rtol=1e-7)
     exits = run.range_exits
-    assert set(exits.law) == {"ChangGas"}
-    row = exits.iloc[0]
-    assert row.seen_low < row.low < row.high < row.seen_high
-    assert 0.0 < row.time_share < 1.0
+    assert {row["law"] for row in exits} == {"ChangGas"}
+    row = exits[0]
+    assert row["seen_low"] < row["low"] < row["high"] < row["seen_high"]
+    assert 0.0 < row["time_share"] < 1.0
     from saleg.report import describe_run
 
     assert "outside its range: ChangGas" in describe_run(run)

@@ -246,19 +246,22 @@ class _Reader:
         for name, item in items.items():
             where = f"{path}.{name}"
             if name in table:
-                values[name] = self._value(table[name], where, name, word == KIND)
+                values[name] = self._value(table[name], where, item, word == KIND)
             elif item.default is item.default_factory is dataclasses.MISSING:
                 limits = item.metadata.get("limits")
                 self.wrong.append(f"{where}: missing" + (f" [{limits.unit}]" if limits else ""))
         return kind(**values) if len(self.wrong) == before else None
 
-    def _value(self, value: Any, path: str, name: str, in_chamber: bool) -> Any:
-        if in_chamber and name in CHAMBER_SLOTS:
-            return self._law(value, path, name)
-        if in_chamber and name in PARTS:
-            return self._part(value, PARTS[name], path)
-        if isinstance(value, list) and all(is_number(item) for item in value):
-            return tuple(float(item) for item in value)  # validation says if one was wanted
+    def _value(self, value: Any, path: str, item: dataclasses.Field[Any], in_chamber: bool) -> Any:
+        if in_chamber and item.name in CHAMBER_SLOTS:
+            return self._law(value, path, item.name)
+        if in_chamber and item.name in PARTS:
+            return self._part(value, PARTS[item.name], path)
+        if "series" in item.metadata:
+            if isinstance(value, list) and all(is_number(number) for number in value):
+                return tuple(float(number) for number in value)
+            self.wrong.append(f"{path} = {_short(value)}: must be a list of numbers")
+            return None
         if not is_number(value):
             self.wrong.append(f"{path} = {_short(value)}: must be a number")
             return None

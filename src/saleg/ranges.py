@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,9 +12,6 @@ from saleg.kernel import layout
 from saleg.kernel.compose import slots_of
 from saleg.laws import Law
 from saleg.laws.base import Validity
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 #: Units of what a law may be valid for.
 UNITS = {
@@ -38,7 +35,7 @@ COLUMNS = {
 }
 
 
-def range_exits(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> pd.DataFrame:
+def range_exits(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> list[dict[str, Any]]:
     """Every law that was asked outside its range over a cycle.
 
     Parameters
@@ -51,16 +48,11 @@ def range_exits(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> pd.
 
     Returns
     -------
-    DataFrame
-        One row per law, side and quantity: the range, the values seen, and the share of the time
-        the law was at work that it was outside.
+    list of dict
+        For each law, side and quantity: the range, the values seen, and the share of the time the
+        law was at work that it was outside. Keys are those of `COLUMNS`.
     """
-    import pandas as pd
-
-    rows = list(_rows(engine, strokes, history))
-    frame = pd.DataFrame(rows, columns=pd.Index(COLUMNS))
-    frame.attrs["units"] = COLUMNS
-    return frame
+    return list(_rows(engine, strokes, history))
 
 
 def _rows(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> Iterator[dict[str, Any]]:

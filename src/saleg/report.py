@@ -54,10 +54,10 @@ def describe_run(run: Run) -> str:
 
 def describe_ranges(run: Run) -> list[str]:
     """A line for every law that was asked outside the range it was made for."""
-    exits = run.range_exits.drop_duplicates(["law", "quantity"])
+    rows = {(row["law"], row["quantity"]): row for row in run.range_exits}
     return [
-        f"  outside its range: {row.law} is for {row.quantity.replace('_', ' ')} "
-        f"{row.low:g} to {row.high:g} {'' if row.unit == '-' else row.unit}, "
-        f"saw {row.seen_low:.4g} to {row.seen_high:.4g} ({row.source})"
-        for row in exits.itertuples()
+        f"  outside its range: {row['law']} is for {row['quantity'].replace('_', ' ')} "
+        f"{row['low']:g} to {row['high']:g} {'' if row['unit'] == '-' else row['unit']}, "
+        f"saw {row['seen_low']:.4g} to {row['seen_high']:.4g} ({row['source']})"
+        for row in rows.values()
     ]

@@ -170,8 +170,8 @@ def contents(chamber: Any, displacement: float, burning: bool = False) -> Conten
     is_open = height >= chamber.port_closing
     squeeze = 1.0 if is_open else chamber.port_closing / height
     pressure = chamber.intake.pressure * squeeze**COMPRESSION_EXPONENT
-    armed = not is_open and not burning
-    return Contents(is_open, burning, armed, pressure, mass, fuel, air, burnt)
+    lit = burning and not is_open
+    return Contents(is_open, lit, not is_open and not lit, pressure, mass, fuel, air, burnt)
 
 
 def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
