@@ -85,8 +85,8 @@ def equilibria(system: System) -> tuple[Equilibrium, ...]:
     >>> from saleg.fundamental import ConstantLoad
     >>> for found in equilibria(System(pressure=0.5, heat=1.0, load=ConstantLoad(0.36))):
     ...     print(f"{found.compression_ratio:.2f} {found.multiplier:.4f} {found.attracting}")
-    2.26 0.9794 True
-    7.56 1.0143 False
+    2.26 0.9742 True
+    6.77 1.0227 False
     """
     depth = _scan(system)
     depth = np.sort(np.append(depth, _turning(system, depth)))

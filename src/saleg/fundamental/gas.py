@@ -83,8 +83,8 @@ class Polytropic(Gas):
     """
 
     gamma: float = quantity("-", default=1.4, low=1, open_low=True)
-    compression: float = quantity("-", default=1.35, low=1, open_low=True)  # type: ignore[assignment]
-    expansion: float = quantity("-", default=1.45, low=1, open_low=True)  # type: ignore[assignment]
+    compression: float = quantity("-", default=1.35, low=1, open_low=True)
+    expansion: float = quantity("-", default=1.45, low=1, open_low=True)
 
 
 def expansion_work(pressure: Any, height: Any, rise: Any, exponent: float) -> Any:
