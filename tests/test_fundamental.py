@@ -94,7 +94,11 @@ def test_a_step_too_weak_to_start_stays():
 def test_springs_alone_do_not_stop_a_fired_translator():
     # Without gas ahead nothing but the head does.
     fired = fm.System(pressure=0.0, heat=5.0).stroke(-0.9)
-    assert fired.end == 1.0
+    assert fired.end == pytest.approx(1.0, abs=1e-11)
+    assert fired.impact == pytest.approx(fm.stroke_balance(fired).residual, rel=1e-9)
+    wanted = quad(lambda s: 1.0 / float(fired.velocity(s)), 0.0, fired.end)[0]
+    assert fired.duration - fired.time(0.0) == pytest.approx(wanted, rel=1e-9)
+    assert np.all(np.diff(fired.time(fired.positions())) > 0.0)
     assert fm.march(fired.system, -0.9).outcome is fm.Outcome.RUNAWAY
 
 
@@ -326,6 +330,8 @@ def test_the_otto_load_makes_every_dead_centre_an_equilibrium():
 def test_no_load_no_equilibrium():
     assert fm.equilibria(fm.System(pressure=0.3, heat=1.0)) == ()
     assert fm.equilibria(fm.System(pressure=0.3)) == ()
+    for load in (fm.ConstantLoad(), fm.OttoLoad()):
+        assert fm.folds(fm.System(pressure=0.3, load=load)) == ()
 
 
 # ---- what the text says of the figures ---------------------------------------------------------
@@ -523,6 +529,7 @@ def test_what_else_is_outside():
         lambda: fm.return_map(system, 1.0),
         lambda: fm.at_equilibrium(system, 0.3),
         lambda: fm.at_equilibrium(dataclasses.replace(system, gas=LOSSY, heat=1e-6), -0.9),
+        lambda: fm.at_equilibrium(fm.System(pressure=0.1, load=fm.OttoLoad()), -0.5),
         lambda: fm.tolerance_band(2.5),
         lambda: fm.Scales(half_stroke=0.0, bore=1.0, stiffness=1.0, mass=-1.0),
         lambda: fm.System(pressure=0.1, ignition=fm.AtPressure(0.5)),

@@ -39,7 +39,7 @@ class EnergyBalance:
 
     @property
     def residual(self) -> float:
-        """Heat that is not accounted for: rounding [-]."""
+        """Heat that is not accounted for [-]: rounding, or the impact on a head."""
         return self.heat - self.work - self.heat_transfer - self.rejected - self.stored
 
     @property

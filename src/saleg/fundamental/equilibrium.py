@@ -147,7 +147,8 @@ def _turning(system: System, depth: np.ndarray) -> np.ndarray:
     """Depths between the given ones at which gain over load is greatest or least."""
 
     def slope(u: Any) -> Any:
-        return np.imag(_gain_over_load(system, u + 1j * TINY))
+        slope = np.imag(_gain_over_load(system, u + 1j * TINY))
+        return np.where(np.isfinite(slope), slope, 0.0)  # no load, no turning
 
     inner = depth[1:-1]
     sign = np.sign(slope(inner))

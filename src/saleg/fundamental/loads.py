@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.errors import OutsideModel
 from saleg.fundamental.otto import cosine_amplitude, otto_efficiency
-from saleg.quantities import quantity
+from saleg.quantities import Problem, quantity
 
 if TYPE_CHECKING:
     from saleg.fundamental.system import System
@@ -149,6 +150,9 @@ class OttoLoad(Load):
 
     def balanced(self, system: System, depth: float, work: float) -> OttoLoad:
         """Load with the second-law efficiency that takes `work` [-] between mirrored centres."""
+        if system.heat == 0.0:
+            allowed = "must be > 0 for a load tied to it"
+            raise OutsideModel([Problem("heat", system.heat, "-", allowed)])
         return replace(self, second_law=float(work / _otto_work(system, depth)))
 
 

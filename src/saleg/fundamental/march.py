@@ -60,7 +60,7 @@ class History:
     @property
     def compression_ratios(self) -> np.ndarray:
         """Geometric compression ratio of every stroke [-], shape (strokes,)."""
-        centres = np.clip(self.dead_centres, -1.0 + 1e-15, 1.0 - 1e-15)
+        centres = self.dead_centres
         return np.asarray(compression_ratio(centres[:-1], centres[1:]))
 
     @property
@@ -140,7 +140,7 @@ def return_map(system: System, depth: Any) -> Any:
     Returns
     -------
     ndarray or float
-        Distance of the next one; 1 at the head, not positive if the midpoint is not passed.
+        Distance of the next one; almost 1 at the head, not positive if the midpoint is not passed.
 
     Raises
     ------

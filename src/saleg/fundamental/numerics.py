@@ -8,15 +8,14 @@ from typing import Any
 
 import numpy as np
 
-#: Points of the scan for a sign change, and how close to the head it goes.
-SCAN, NEAREST = 96, 1e-12
+#: Points of the scan for a sign change, and how close to the head it goes; what is not stopped
+#: there counts as having reached it.
+SCAN, AT_HEAD = 96, 1.0 - 1e-12
 #: Step and reach of the double-exponential quadrature: beyond, weights fall below 1e-18.
 STEP, BELOW, ABOVE = 0.05, -4.4, 3.2
 
 
-def first_root(
-    energy: Callable[[Any], Any], slope: Callable[[Any], Any], start: Any, head: float = 1.0
-) -> Any:
+def first_root(energy: Callable[[Any], Any], slope: Callable[[Any], Any], start: Any) -> Any:
     """First zero of a kinetic energy beyond a dead centre.
 
     A scan, finer towards both ends, brackets it; Newton's method, or bisection where that leaves
@@ -28,13 +27,12 @@ def first_root(
         Kinetic energy and its derivative over position; vectorised.
     start : float or ndarray
         Dead centre, where the energy is zero [-].
-    head : float
-        Position that cannot be passed [-].
 
     Returns
     -------
     float or ndarray
-        The zero; `start` if the slope is not positive there, `head` if there is none.
+        The zero; `start` if the slope is not positive there, and if there is no zero the last
+        point before the head, at 1.
 
     Examples
     --------
@@ -43,15 +41,13 @@ def first_root(
     """
     start = np.asarray(start, dtype=float)
     share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, SCAN + 1))
-    scan = start + np.expand_dims(share[1:], tuple(range(1, start.ndim + 1))) * (
-        head - NEAREST - start
-    )
+    scan = start + np.expand_dims(share[1:], tuple(range(1, start.ndim + 1))) * (AT_HEAD - start)
     stopped = energy(scan) <= 0.0
     after = np.argmax(stopped, axis=0)
     high = np.take_along_axis(scan, after[np.newaxis], axis=0)[0]
     before = np.take_along_axis(scan, np.maximum(after - 1, 0)[np.newaxis], axis=0)[0]
     root = _refine(energy, slope, np.where(after > 0, before, start), high)
-    root = np.where(stopped.any(axis=0), root, head)
+    root = np.where(stopped.any(axis=0), root, AT_HEAD)
     return np.where(slope(start) > 0.0, root, start)[()]
 
 

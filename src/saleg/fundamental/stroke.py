@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.fundamental.gas import expansion_work
-from saleg.fundamental.numerics import first_root, half_line
+from saleg.fundamental.numerics import AT_HEAD, first_root, half_line
 
 if TYPE_CHECKING:
     from saleg.fundamental.loads import Profile
@@ -54,7 +54,7 @@ class Stroke:
 
     @cached_property
     def end(self) -> Any:
-        """Dead centre at which the stroke ends [-]; 1 or -1 if it reaches the head.
+        """Dead centre at which the stroke ends [-]; within 1e-12 of 1 or -1 if at the head.
 
         If nothing drives the translator away from its start, it stays there.
         """
@@ -64,6 +64,11 @@ class Stroke:
     def depth(self) -> Any:
         """Distance of the end from the midpoint [-], negative if it is not passed."""
         return self._arrive
+
+    @cached_property
+    def impact(self) -> Any:
+        """Kinetic energy with which the stroke ends at the head [-]; zero at a dead centre."""
+        return np.where(self._arrive < AT_HEAD, 0.0, self._kinetic_energy(self._arrive))[()]
 
     @cached_property
     def duration(self) -> Any:
@@ -175,21 +180,23 @@ class Stroke:
 
     def _since_start(self, s: Any) -> Any:
         charge = self.system.motored_pressure(self._depart)
-        return self._time_along(self._depart, s - self._depart, charge)
+        return self._time_along(self._depart, s - self._depart, charge, 0.0)
 
     def _until_end(self, s: Any) -> Any:
         added = self.system.ignition.added_pressure(self.system, self._arrive)
         charge = self.system.motored_pressure(self._arrive) + self._burns_under_way * added
-        return self._time_along(self._arrive, s - self._arrive, charge)
+        return self._time_along(self._arrive, s - self._arrive, charge, self.impact)
 
-    def _time_along(self, anchor: Any, way: Any, ahead: Any) -> Any:
+    def _time_along(self, anchor: Any, way: Any, ahead: Any, energy: Any) -> Any:
         """Time spent within `way` of a dead centre, where the charge stands at `ahead`.
+
+        Of a head, if `energy` is left there.
 
         The integrand ``1/v`` grows like ``1/sqrt(distance)`` there; the quadrature crowds its
         nodes at that end, and the work is reckoned from there, so nothing cancels.
         """
         nodes, weights = half_line(np.ndim(way))
-        work = self._work(anchor, nodes * way, ahead)
-        moving = work > 0.0  # rounding, at the last node before a dead centre where it burns
-        slowness = np.abs(way) / np.sqrt(2.0 * np.where(moving, work, np.inf))
+        kinetic = energy + self._work(anchor, nodes * way, ahead)
+        moving = kinetic > 0.0  # not so by rounding at the far end, if that is a dead centre too
+        slowness = np.abs(way) / np.sqrt(2.0 * np.where(moving, kinetic, np.inf))
         return np.sum(weights * slowness, axis=0)
