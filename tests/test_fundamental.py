@@ -75,6 +75,26 @@ def test_strokes_follow_the_printed_formulas(gamma, pressure, heat, share, depth
         assert stroke.acceleration(x) == pytest.approx(printed, rel=1e-11, abs=1e-11)
 
 
+def test_eq_28_holds_as_printed_and_eq_30_with_the_other_sign():
+    g, P, Q, F, x = 1.4, 0.17, 2.2, 0.8, np.linspace(-0.85, 0.85, 41)
+
+    def stored(x):
+        return P / (g - 1.0) * ((1.0 + x) ** (1.0 - g) + (1.0 - x) ** (1.0 - g)) + x**2
+
+    def eq_28(x, left):
+        return -Q * ((1.0 + left) / (1.0 + x)) ** (g - 1.0) - stored(x) - F * x
+
+    def eq_30(x, right):
+        return Q * ((1.0 - right) / (1.0 - x)) ** (g - 1.0) + stored(x) - F * x
+
+    groups = {"gamma": g, "pressure": P, "heat": Q, "force": F}
+    to_right = fm.kinetic_energy(x, -0.9, **groups)
+    to_left = fm.kinetic_energy(x, 0.9, **groups, direction=-1.0)
+    assert eq_28(x, -0.9) - eq_28(-0.9, -0.9) == pytest.approx(to_right, abs=1e-13)
+    assert np.all(to_left > 0.0)
+    assert eq_30(x, 0.9) - eq_30(0.9, 0.9) == pytest.approx(-to_left, abs=1e-13)
+
+
 def test_the_basic_system_swings_to_the_mirrored_position():
     # 2.2: without heat and work, x_r = -x_l, and the velocity is greatest at the midpoint.
     depth = np.linspace(0.01, 0.999, 200)
@@ -527,6 +547,8 @@ def test_what_else_is_outside():
     system = fm.System(pressure=0.1, heat=1.0)
     for wrong in (
         lambda: fm.return_map(system, 1.0),
+        lambda: system.stroke(-0.5).velocity([0.0, 1.2]),
+        lambda: system.stroke(-0.5).time(math.nan),
         lambda: fm.at_equilibrium(system, 0.3),
         lambda: fm.at_equilibrium(dataclasses.replace(system, gas=LOSSY, heat=1e-6), -0.9),
         lambda: fm.at_equilibrium(fm.System(pressure=0.1, load=fm.OttoLoad()), -0.5),

@@ -53,9 +53,15 @@ def _problems(name: str, value: Any, limits: Limits) -> list[Problem]:
         numbers = np.asarray(np.real(value), dtype=float).ravel()
     except (TypeError, ValueError):
         return [Problem(name, value, limits.unit, limits.wanted("a number"))]
+    if numbers.size == 0 or (np.isfinite(numbers).all() and _admits_all(limits, numbers)):
+        return []
     for number in numbers.tolist():
         if not np.isfinite(number):
             return [Problem(name, number, limits.unit, limits.wanted("a finite number"))]
         if not limits.admits(number):
             return [Problem(name, number, limits.unit, limits.wanted())]
     return []
+
+
+def _admits_all(limits: Limits, numbers: np.ndarray) -> bool:
+    return limits.admits(float(numbers.min())) and limits.admits(float(numbers.max()))

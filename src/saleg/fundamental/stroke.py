@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.fundamental.checks import POSITION, require
 from saleg.fundamental.gas import expansion_work
 from saleg.fundamental.numerics import AT_HEAD, first_root, half_line
 
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Stroke:
     """A stroke from one dead centre to the next; :meth:`System.stroke` begins the first.
+
+    Positions handed to its methods may be arrays; those not between the heads raise
+    :class:`saleg.errors.OutsideModel`.
 
     Parameters
     ----------
@@ -77,17 +81,17 @@ class Stroke:
 
     def pressures(self, x: Any) -> tuple[Any, Any]:
         """Pressures in the left and the right chamber at `x` [-] (Eq. 4, 23)."""
-        s = self.direction * np.asarray(x)
+        s = self._along(x)
         both = self._behind(s), self._ahead(s)
         return both if self.direction > 0.0 else both[::-1]
 
     def acceleration(self, x: Any) -> Any:
         """Acceleration a* at `x` [-], positive to the right (Eq. 26, 29)."""
-        return self.direction * self._acceleration(self.direction * np.asarray(x))
+        return self.direction * self._acceleration(self._along(x))
 
     def kinetic_energy(self, x: Any) -> Any:
         """Half the square of the velocity at `x` [-], negative out of reach (Eq. 28, 30)."""
-        return self._kinetic_energy(self.direction * np.asarray(x))
+        return self._kinetic_energy(self._along(x))
 
     def velocity(self, x: Any) -> Any:
         """Velocity v* at `x` [-], positive to the right; zero out of reach."""
@@ -95,7 +99,7 @@ class Stroke:
 
     def time(self, x: Any) -> Any:
         """Time since the start at positions `x` within the stroke, in sqrt(m/k) [-]."""
-        s = np.clip(self.direction * np.asarray(x), self._depart, self._arrive)
+        s = np.clip(self._along(x), self._depart, self._arrive)
         knot = self._knot
         late = self.duration - self._until_end(np.maximum(s, knot))
         return np.where(s <= knot, self._since_start(np.minimum(s, knot)), late)
@@ -131,6 +135,10 @@ class Stroke:
         )
 
     # ---- along the motion --------------------------------------------------------------------
+
+    def _along(self, x: Any) -> Any:
+        require(x=(x, POSITION))
+        return self.direction * np.asarray(x)
 
     @property
     def _depart(self) -> Any:
