@@ -1,19 +1,18 @@
 """The base case of the thesis: its figures, its p-V diagram and its orbit.
 
-Run with ``python examples/01_base_case.py [FILE.png]``; without a name it makes the picture of the
-README.
+Run with ``python examples/01_base_case.py [FOLDER]``; without a folder the picture is thrown away.
+With docs/images it makes that of the README.
 """
 
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import saleg
 from saleg.plotting import new_figure, pressure_volume, velocity_position
 
-PICTURE = Path(__file__).resolve().parent.parent / "docs" / "images" / "base_case.png"
 
-
-def main(picture: Path = PICTURE) -> None:
+def main(folder: Path) -> None:
     run = saleg.simulate(saleg.machines.thesis_base(), duration=2.5)
     print(run)
 
@@ -28,8 +27,9 @@ def main(picture: Path = PICTURE) -> None:
     left, right = figure.subplots(1, 2)
     pressure_volume(run, left)
     velocity_position(run, right)
-    figure.savefig(picture, dpi=110)
+    figure.savefig(folder / "base_case.png", dpi=110)
 
 
 if __name__ == "__main__":
-    main(*map(Path, sys.argv[1:]))
+    with TemporaryDirectory() as scratch:
+        main(Path(sys.argv[1] if len(sys.argv) > 1 else scratch))

@@ -1,19 +1,18 @@
 """The thesis' figures of its base case, and of the engine of its Chapter 5.
 
-Run with ``python examples/02_figures.py [FOLDER]``; without a name it makes the pictures of
-docs/figures.md.
+Run with ``python examples/02_figures.py [FOLDER]``; without a folder the pictures are thrown away.
+With docs/images it makes those of docs/figures.md.
 """
 
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import saleg
 from saleg.plotting import new_figure
 
-PICTURES = Path(__file__).resolve().parent.parent / "docs" / "images"
 
-
-def main(folder: Path = PICTURES) -> None:
+def main(folder: Path) -> None:
     run = saleg.simulate(saleg.machines.thesis_base(), duration=1.0, motored_pressure=True)
 
     # Figures 36 to 38, and the p-V diagram.
@@ -62,4 +61,5 @@ def main(folder: Path = PICTURES) -> None:
 
 
 if __name__ == "__main__":
-    main(*map(Path, sys.argv[1:]))
+    with TemporaryDirectory() as scratch:
+        main(Path(sys.argv[1] if len(sys.argv) > 1 else scratch))

@@ -10,6 +10,7 @@ import pytest
 
 import saleg
 from saleg.cli import folder, main
+from saleg.export import csv_folder
 from saleg.report import FIGURES
 from saleg.thesis_tables import FINEST, TABLE_1, TABLE_13
 
@@ -182,6 +183,24 @@ def test_settings_reach_the_integrator(capsys, monkeypatch):
     assert seen == {"method": "adaptive", "rtol": 1e-6, "duration": 2.5}
 
 
+def test_a_history_is_kept_and_written(base, tmp_path, capsys):
+    target = tmp_path / "case"
+    words = ["thesis-base", "--duration", "0.1", "--history", "20"]
+    assert run(*words, "--out", str(target)) == 0
+    kept = saleg.simulate(base, 0.1, history=20).history
+    assert saleg.Run.load(target).history.equals(kept)
+    capsys.readouterr()
+    assert "--history belongs to --out" in mistake(capsys, "run", *words)
+
+
+def test_less_than_a_cycle_is_not_compared(capsys):
+    assert run("thesis-base", "--duration", "0.003") == 0
+    shown = capsys.readouterr().out
+    assert "less than a cycle" in shown
+    assert "nan" not in shown
+    assert "Table" not in shown
+
+
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """A folder as ``--out`` leaves it, below folders that were not there before."""
@@ -235,10 +254,13 @@ def test_a_run_without_a_cycle_writes_its_tables(tmp_path, capsys):
     run("thesis-base", "--duration", "1e-3", "--out", str(target))
     assert {path.name for path in target.iterdir()} == {
         "engine.toml",
+        "run.json",
         "performance.csv",
         "cycles.csv",
         "events.csv",
+        "strokes.csv",
     }
+    assert "less than a cycle" in saleg.Run.load(target).message
 
 
 def test_an_existing_folder_is_kept_without_force(written, capsys):
@@ -295,7 +317,7 @@ def test_ctrl_c_leaves_nothing(tmp_path, capsys, monkeypatch, place):
 def test_ctrl_c_while_writing_keeps_the_earlier_run(written, tmp_path, capsys, monkeypatch):
     target = tmp_path / "case"
     shutil.copytree(written, target)
-    write = folder._write_table
+    write = csv_folder.write_table
     count = []
 
     def interrupted(path, frame):
@@ -304,7 +326,7 @@ def test_ctrl_c_while_writing_keeps_the_earlier_run(written, tmp_path, capsys, m
             raise KeyboardInterrupt
         write(path, frame)
 
-    monkeypatch.setattr(folder, "_write_table", interrupted)
+    monkeypatch.setattr(csv_folder, "write_table", interrupted)
     assert run("thesis-base", "--duration", "0.1", "--out", str(target), "--force") == 130
     assert [path.name for path in tmp_path.iterdir()] == ["case"]
     assert {path.name for path in target.iterdir()} == set(folder.FILES)
@@ -315,7 +337,7 @@ def test_a_full_disk_is_told_and_leaves_nothing(tmp_path, capsys, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(folder, "_write_table", full)
+    monkeypatch.setattr(csv_folder, "write_table", full)
     message = mistake(
         capsys, "run", "thesis-base", "--duration", "0.1", "--out", str(tmp_path / "case")
     )

@@ -8,6 +8,7 @@ import sys
 import tracemalloc
 import zipfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -478,9 +479,25 @@ def test_tables_somebody_changed(change, match, base_run, tmp_path):
     refused(tmp_path / "x", match)
 
 
-def test_tables_from_other_editors_are_read(base_run, tmp_path):
+@pytest.mark.parametrize(
+    ("name", "before", "after"),
+    [
+        ("engine.toml", "bore = 0.064", "bore = 0.065"),
+        ("engine.toml", "bore = 0.064", "bore = -1.0"),
+        ("run.json", '"status": "steady"', '"status": "completed"'),
+    ],
+)
+def test_an_engine_somebody_changed_has_no_results(name, before, after, base_run, tmp_path):
     base_run.save(tmp_path / "x")
-    for path in (tmp_path / "x").glob("*.csv"):
+    path = tmp_path / "x" / name
+    assert before in path.read_text()
+    path.write_text(path.read_text().replace(before, after))
+    refused(tmp_path / "x", "not what was saved.*a new run")
+
+
+def test_tables_and_texts_from_other_editors_are_read(base_run, tmp_path):
+    base_run.save(tmp_path / "x")
+    for path in (tmp_path / "x").iterdir():
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))
     assert_equal_runs(saleg.Run.load(tmp_path / "x"), base_run)
 
@@ -492,11 +509,21 @@ def test_a_table_that_is_missing(name, base_run, tmp_path):
     refused(tmp_path / "x", name)
 
 
-def test_an_engine_out_of_range_is_named(base_run, tmp_path):
-    base_run.save(tmp_path / "x")
-    path = tmp_path / "x" / "engine.toml"
-    path.write_text(path.read_text().replace("bore = 0.064", "bore = -1.0"))
-    refused(tmp_path / "x", r"its engine.*(\n.*)*bore = -1\.0")
+@pytest.mark.parametrize("form", ["hdf5", "netcdf"])
+def test_a_full_disk_is_told_before_the_library_crashes(form, base_run, tmp_path, monkeypatch):
+    monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=1_000_000))
+    with pytest.raises(export.RunFileError, match="No space left"):
+        save(form, base_run, tmp_path / NAMES[form])
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_the_library_raises_names_the_file(base_run, tmp_path, monkeypatch):
+    def fails(*_, **__):
+        raise RuntimeError("Can't decrement id ref count")
+
+    monkeypatch.setattr(h5py, "File", fails)
+    with pytest.raises(export.RunFileError, match=r"cannot write .*run\.h5: Can't decrement"):
+        base_run.save(tmp_path / "run.h5")
 
 
 @pytest.mark.parametrize(
@@ -505,6 +532,7 @@ def test_an_engine_out_of_range_is_named(base_run, tmp_path):
         ("hdf5", "h5py", 'pip install "saleg[hdf5]"'),
         ("netcdf", "xarray", 'pip install "saleg[xarray]"'),
         ("netcdf", "h5netcdf", 'pip install "saleg[xarray]"'),
+        ("netcdf", "h5py", 'pip install "saleg['),
     ],
 )
 def test_a_missing_extra_says_what_to_type(form, package, words, base_run, tmp_path, monkeypatch):

@@ -1,6 +1,7 @@
 """One test over all laws of a slot: a new law needs a line in LAWS and nothing else."""
 
 import dataclasses
+import itertools
 import math
 
 import numba
@@ -8,28 +9,55 @@ import numpy as np
 import pytest
 
 from saleg import laws
-from saleg.kernel.compose import _methods
+from saleg.kernel.aid import Aid
+from saleg.kernel.compose import methods_text, record_of, values_of
 from saleg.kernel.source import Borrowed, NoSource
 from saleg.laws import Charge, Gas, Motion, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law
+from saleg.quantities import problems
 
 LAWS = [
     laws.ChangGas(),
     laws.ConstantGamma(1.35),
     laws.Hohenberg(),
+    laws.Woschni(),
+    laws.Chang(),
+    laws.Annand(),
     laws.NoHeatTransfer(),
     laws.Wiebe(),
+    laws.DoubleWiebe(),
+    laws.BurnProfile(),
+    laws.InstantRelease(),
     laws.CFRIgnition(),
+    laws.RCMIgnition(),
+    laws.RCMIgnitionPascal(),
+    laws.TabulatedDelay(),
+    laws.SparkAtClearance(),
+    laws.SparkAfterDelay(),
+    laws.IgnitionAtPressure(),
+    laws.IgnitionAtDeadCentre(),
+    laws.NoMisfires(),
+    laws.ScheduledMisfires(),
     laws.InstantExchange(0.3),
     laws.LinearSprings(30e3),
+    laws.ProgressiveSprings(),
+    laws.PreloadedSprings(),
+    laws.EndStops(gap=0.06),
+    laws.NoFriction(),
+    laws.ConstantFriction(),
+    laws.CoulombViscousFriction(),
     laws.ViscousFriction(12.4),
     laws.BlairViscousFriction(),
     laws.FrictionShare(),
     laws.LinearLoad(),
+    laws.CircuitAlternator(),
+    laws.FluxProfile(cosines=(0.1, 0.02), sines=(0.03,)),
+    laws.ForceMap(),
+    laws.SinusoidalMotor(),
 ]
 
 GASES = [
-    Gas(p, T, V, 0.7 * p, 0.03, 0.064, speed, 550.0, burning)
+    Gas(p, T, V, 0.7 * p, 0.03, 0.064, speed, 550.0, burning, -3.0, 1e9)
     for p, T, V, speed, burning in (
         (1e5, 300.0, 4e-4, 0.0, 0.0),
         (50e5, 1500.0, 1e-4, 5.0, 0.0),
@@ -38,7 +66,10 @@ GASES = [
     )
 ]
 CHARGE = Charge(5e-4, 1.5e-5, 4.3e-4, 5.5e-5, 0.6, 1.05e5, 325.0, 4.3e-4, 5.8e-4)
-MOTIONS = [Motion(0.1, x, v, d) for x, v, d in ((0.05, 3.0, 1.0), (-0.08, -9.0, -1.0), (0, 0, 1))]
+MOTIONS = [
+    Motion(0.1, x, v, d, i)
+    for x, v, d, i in ((0.05, 3.0, 1.0, 2.0), (-0.08, -9.0, -1.0, -7.0), (0, 0, 1, 0.1))
+]
 STROKES = [
     Stroke(0.18, 0.0106, 0.2, 0.1, 0.0032, 1400.0, 3.4),
     Stroke(0.02, 0.1, 0.2, 0.1, 0.0032, 0.0, 0.001),
@@ -56,6 +87,9 @@ ARGUMENTS = {
     "burnt_fraction": [(u,) for u in (0.0, 0.1, 0.5, 1.0)],
     "charge": [(5e-4, 1e-6, 2e-4, 3e-4, 0.6, 17.5), (5e-4, 4e-5, 4e-4, 6e-5, 0.0, 17.5)],
     "energy": [(motion,) for motion in MOTIONS],
+    "happens": [(number,) for number in (0.0, 1.0, 2.0, 7.0)],
+    "lights_at_dead_centre": [(CHARGE,)],
+    "current_rate": [(held, motion) for held in (0.0, 1.1) for motion in MOTIONS],
     "electrical_power": [(held, motion) for held in (0.0, 1.1) for motion in MOTIONS],
     "at_dead_centre": [(held, stroke) for held in (-1.0, 0.0, 9.0) for stroke in STROKES],
 }
@@ -87,12 +121,9 @@ def test_every_exported_law_is_listed():
 def compiled(law, method):
     """The method alone, compiled as the composer writes it, and the law's record."""
     names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
-    text = "\n".join(_methods(type(law), method, "one", BASES[law.slot], None))
+    text = "\n".join(methods_text(type(law), method, "one", BASES[law.slot]))
     exec(text, names)
-    fields = [item.name for item in dataclasses.fields(law)]
-    record = np.zeros(1, [(name, float) for name in fields or ["nothing"]])
-    for name in fields:
-        record[name] = getattr(law, name)
+    record = np.array([values_of(law)], record_of(law))
     return names[f"one_{method}"], record[0]
 
 
@@ -104,6 +135,23 @@ def test_python_face_equals_compiled_face(law, method):
         assert function(record, *given) == pytest.approx(expected, rel=1e-13, abs=1e-300)
 
 
+EASED = [case for case in CASES if case.values[1] in BASES[case.values[0].slot].at_every_step]
+
+
+@pytest.mark.parametrize(("law", "method"), EASED)
+def test_eased_face_equals_python_face(law, method):
+    """Merged powers and remembered factors change nothing but rounding."""
+    names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
+    text = "\n".join(methods_text(type(law), method, "one", BASES[law.slot], eases=True))
+    exec(text, names)
+    record = np.array([values_of(law)], record_of(law))[0]
+    for gas in GASES:
+        constants = names[f"one_{method}_constants"](record, gas, CHARGE)
+        aid = Aid(math.log(gas.p), math.log(gas.T), math.log(gas.V), *constants)
+        found = names[f"one_{method}"](record, gas, CHARGE, aid)
+        assert found == pytest.approx(getattr(law, method)(gas, CHARGE), rel=1e-12, abs=1e-300)
+
+
 @pytest.mark.parametrize(("law", "method"), CASES)
 def test_values_are_finite(law, method):
     for given in arguments(law, method):
@@ -112,10 +160,9 @@ def test_values_are_finite(law, method):
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
 def test_every_field_has_a_unit_and_a_default_in_range(law):
-    for item in dataclasses.fields(law):
-        limits = item.metadata["limits"]
-        assert limits.unit
-        assert limits.admits(getattr(law, item.name))
+    assert all(item.metadata["limits"].unit for item in dataclasses.fields(law))
+    assert problems(law) == []
+    assert problems(type(law)()) == []
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
@@ -157,19 +204,25 @@ def test_heat_flows_from_hot_to_cold(law):
 
 @of_slot("heat_release")
 def test_burnt_fraction_is_the_integral_of_its_rate(law):
-    u = np.linspace(0.0, 1.0, 2001)
-    rate = np.array([law.burn_rate(value) for value in u])
+    from scipy.integrate import quad
+
+    if law.duration(GASES[1], CHARGE) == 0.0:
+        return
+    breaks = np.linspace(0.0, 1.0, 41)  # no law has a kink elsewhere
+    pieces = [quad(law.burn_rate, a, b)[0] for a, b in itertools.pairwise(breaks)]
     assert law.burnt_fraction(0.0) == 0.0
-    assert 0.5 < law.burnt_fraction(1.0) <= 1.0
-    assert (rate >= 0.0).all()
-    assert np.trapezoid(rate, u) == pytest.approx(law.burnt_fraction(1.0), rel=1e-6)
+    assert 0.5 < law.burnt_fraction(1.0) <= 1.0 + 1e-15
+    assert all(law.burn_rate(u) >= 0.0 for u in breaks)
+    for i in (5, 20, 40):
+        assert sum(pieces[:i]) == pytest.approx(law.burnt_fraction(breaks[i]), rel=1e-8)
 
 
 @of_slot("ignition")
-def test_hotter_and_denser_ignites_sooner(law):
+def test_hotter_and_denser_ignites_no_later(law):
     cold = GASES[1]
-    assert law.rate(cold._replace(T=1.1 * cold.T), CHARGE) > law.rate(cold, CHARGE)
-    assert law.rate(cold._replace(p=2.0 * cold.p), CHARGE) > law.rate(cold, CHARGE)
+    assert law.rate(cold, CHARGE) >= 0.0
+    assert law.rate(cold._replace(T=1.1 * cold.T), CHARGE) >= law.rate(cold, CHARGE)
+    assert law.rate(cold._replace(p=2.0 * cold.p), CHARGE) >= law.rate(cold, CHARGE)
 
 
 @of_slot("gas_exchange")
@@ -196,8 +249,10 @@ def test_friction_dissipates(law):
 @of_slot("alternator")
 def test_alternator_delivers_no_more_than_it_takes(law):
     for motion in MOTIONS:
-        mechanical = law.force(1.05, motion) * motion.v
-        assert 0.0 <= law.electrical_power(1.05, motion) <= mechanical or motion.v == 0.0
+        taken = law.force(1.05, motion) * motion.v
+        if isinstance(law, laws.CircuitAlternator):  # less what goes into the magnetic field
+            taken -= law.inductance * motion.current * law.current_rate(1.05, motion)
+        assert law.electrical_power(1.05, motion) <= taken
     assert all(law.at_dead_centre(1.0, stroke) >= 0.0 for stroke in STROKES)
 
 
@@ -265,7 +320,7 @@ def test_what_a_law_may_not_do_is_said(law, hint):
     from saleg import LawError
 
     with pytest.raises(LawError, match=hint):
-        _methods(law, "force", "one", BASES["springs"], None)
+        methods_text(law, "force", "one", BASES["springs"])
 
 
 def test_a_law_without_source_is_recognised():

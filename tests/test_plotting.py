@@ -1,4 +1,5 @@
 import dataclasses
+import inspect
 import math
 import subprocess
 import sys
@@ -269,7 +270,26 @@ def test_pie_is_the_energy_balance(base_run):
     shares = [(wedge.theta2 - wedge.theta1) / 360.0 for wedge in ax.patches]
     flows = [flow for flow in energy_flows(base_run.energy).values() if flow > 1.0]
     np.testing.assert_allclose(np.abs(shares), np.array(flows) / base_run.energy.fuel, rtol=1e-5)
-    assert "exhaust 41.4 %" in texts(ax)
+    assert "exhaust 41.4 %" in [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_names_of_a_pie_neither_overlap_nor_leave_the_figure(base):
+    """Of a cycle in which one flow is 0.4 % of the fuel."""
+    ax = plotting.energy_pie(saleg.simulate(base, 0.07))
+    figure = ax.figure
+    figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in ax.get_legend().get_texts()]
+    assert len(boxes) == 7
+    assert all(above.y0 >= below.y1 for above, below in pairwise(boxes))
+    assert all(figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1 for box in boxes)
+
+
+@pytest.mark.parametrize("name", ["energy_pie", "energy_sankey"])
+def test_a_balance_that_does_not_close_is_not_drawn(base_run, name):
+    off = dataclasses.replace(base_run)
+    off.__dict__["energy"] = dataclasses.replace(base_run.energy, residual=-20.0)
+    with pytest.raises(NoCycle, match=r"off by 1\.4 % of the fuel energy; try a smaller step"):
+        FIGURES[name](off)
 
 
 def test_pie_cannot_show_what_joins(unsteady):
@@ -301,6 +321,33 @@ def test_dynamics_has_two_panels_and_one_legend(base_run):
         plotting.dynamics(base_run, [motion])
 
 
+@pytest.mark.parametrize(("name", "count"), [("dynamics", 2), ("approach_to_steady_state", 4)])
+def test_figures_of_several_panels_take_an_array_of_axes(base_run, name, count):
+    axes = new_figure().subplots(count)
+    assert list(FIGURES[name](base_run, ax=axes)) == list(axes)
+    assert all(panel.has_data() for panel in axes)
+
+
+def labels(axis):
+    return [float(label.get_text().replace("\u2212", "-")) for label in axis.get_ticklabels()]
+
+
+@pytest.mark.parametrize(("duration", "kept"), [(0.025, None), (2.0, 12)])
+def test_approach_of_few_cycles_is_readable(base, duration, kept):
+    run = saleg.simulate(base, duration, keep_cycles=kept)
+    panels = plotting.approach_to_steady_state(run)
+    panels[0].figure.canvas.draw()
+    for panel in panels:
+        start, end = panel.get_xlim()
+        assert start == run.cycles["t"].iloc[0]
+        assert end - start < 1.05 * (run.duration - start)
+        low, high = panel.get_ylim()
+        assert high - low > 0.99e-4 * high
+        for axis in (panel.xaxis, panel.yaxis):
+            assert len(labels(axis)) <= 7
+            assert len(set(labels(axis))) == len(labels(axis))
+
+
 @pytest.mark.parametrize("name", UNITS | {"energy_sankey": 0, "energy_pie": 0})
 def test_plots_draw_on_axes_handed_in(base_run, name, tmp_path):
     figure = new_figure()
@@ -328,6 +375,39 @@ def test_a_stalled_run_is_not_passed_off_as_a_good_one(base):
             FIGURES[name](run)
 
 
+@pytest.mark.parametrize("name", FIGURES)
+def test_no_figure_passes_a_bad_run_off_as_a_good_one(base_run, name):
+    orbit = base_run.orbit
+    bad = dataclasses.replace(base_run, status=saleg.Status.HEAD_CONTACT, replay=lambda: orbit)
+    axes = np.atleast_1d(FIGURES[name](bad))
+    assert any("(the run ended: head contact)" in ax.get_title() for ax in axes)
+
+
+@pytest.fixture(scope="module")
+def stalled(base):
+    """Its pressures hardly vary in the last cycle, and nothing happens in it."""
+    return saleg.simulate(base.replace(**{"alternator.load_constant": 300.0}), 2.0)
+
+
+@pytest.mark.parametrize("name", ["pressure_volume", "pressure_position", "pressure_time"])
+def test_pressures_that_hardly_vary_are_not_clipped(stalled, name):
+    ax = FIGURES[name](stalled)
+    for side, _ in SIDES:
+        curve = line(ax, side)
+        assert 0.0 == ax.get_ylim()[0] < np.max(curve.get_ydata()) < 0.97 * ax.get_ylim()[1]
+        assert np.max(curve.get_xdata()) <= ax.get_xlim()[1]
+
+
+def test_a_motion_without_events_lists_none(stalled):
+    assert plotting.velocity_position(stalled).get_legend() is None
+
+
+def test_no_power_is_a_curve_inside_the_axes(stalled):
+    ax = plotting.power(stalled)
+    assert not line(ax, "electrical power").get_ydata().any()
+    assert ax.get_ylim()[0] < 0.0 < ax.get_ylim()[1]
+
+
 def test_an_engine_driven_by_its_alternator_has_no_sankey(base_run):
     driven = dataclasses.replace(base_run)
     driven.__dict__["energy"] = dataclasses.replace(base_run.energy, electrical=-20.0)
@@ -339,6 +419,8 @@ def test_run_plot_lists_documents_and_draws_the_figures(base_run):
     assert set(dir(base_run.plot)) == set(FIGURES)
     for name in dir(base_run.plot):
         assert getattr(base_run.plot, name).__doc__ == FIGURES[name].__doc__
+        assert "ax : " in FIGURES[name].__doc__
+        assert list(inspect.signature(FIGURES[name]).parameters)[:2] == ["run", "ax"]
         assert name in repr(base_run.plot)
         assert name in plotting.__all__
     assert base_run.plot.power().get_ylabel() == "electrical power [kW]"
@@ -356,7 +438,7 @@ def test_figures_show_in_a_notebook_without_pyplot(base_run):
 
 def test_neither_pyplot_nor_a_display_is_needed():
     code = (
-        "import sys, saleg, saleg.plotting, saleg.cli;"
+        "import sys, saleg, saleg.cli; saleg.plotting.studies.delay;"
         "assert not {'matplotlib', 'pandas', 'numba'} & set(sys.modules);"
         "saleg.simulate(saleg.machines.thesis_base(), 0.1).plot.velocity_position();"
         "assert 'matplotlib.pyplot' not in sys.modules"

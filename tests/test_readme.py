@@ -10,17 +10,25 @@ ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def blocks(language):
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, flags=re.DOTALL | re.MULTILINE)
+def blocks(language, text=README):
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE)
 
 
 RUN, TEST = (block.strip() for block in blocks("sh"))
 
 
-@pytest.mark.parametrize("number", range(len(blocks("python"))))
-def test_python_blocks_run(number, tmp_path):
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PYTHON = [
+    pytest.param(block, id=f"{page.stem}-{number}")
+    for page in PAGES
+    for number, block in enumerate(blocks("python", page.read_text(encoding="utf-8")))
+]
+
+
+@pytest.mark.parametrize("block", PYTHON)
+def test_python_blocks_run(block, tmp_path):
     script = tmp_path / "block.py"
-    script.write_text(blocks("python")[number], encoding="utf-8")
+    script.write_text(block, encoding="utf-8")
     subprocess.run([sys.executable, "-W", "error", str(script)], check=True, cwd=tmp_path)
 
 
@@ -39,16 +47,17 @@ def test_ci_calls_the_test_command_as_it_stands_here():
 
 
 def test_links_lead_somewhere():
-    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
-    for page in pages:
+    for page in PAGES:
         for link in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
             assert (page.parent / link).exists(), f"{page.name}: {link}"
 
 
-def test_the_picture_is_small_and_can_be_made(tmp_path):
-    picture = ROOT / "docs" / "images" / "base_case.png"
-    assert picture.stat().st_size < 150e3
-    made = tmp_path / "made.png"
-    example = ROOT / "examples" / "01_base_case.py"
-    subprocess.run([sys.executable, str(example), str(made)], check=True)
-    assert made.stat().st_size < 150e3
+@pytest.mark.parametrize(
+    ("example", "name"),
+    [("01_base_case.py", "base_case.png"), ("04_convergence.py", "convergence.png")],
+)
+def test_pictures_are_small_and_can_be_made(example, name, tmp_path):
+    script = ROOT / "examples" / example
+    subprocess.run([sys.executable, "-W", "error", str(script), str(tmp_path)], check=True)
+    for folder in (tmp_path, ROOT / "docs" / "images"):
+        assert (folder / name).stat().st_size < 150e3

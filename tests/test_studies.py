@@ -1,9 +1,14 @@
 """Numerical studies: tables of the thesis beside ours, and where its error comes from."""
 
+import time
+
 import numpy as np
 import pytest
 
+import saleg
+from helpers import bounce_engine
 from saleg import studies
+from saleg.errors import SalegError
 from saleg.plotting.studies import delay, work_precision
 from saleg.thesis_tables import TABLE_2, TABLE_3
 
@@ -44,7 +49,7 @@ def test_stop_time_matters_only_until_steady(base):
 
 
 def test_delay_of_two_steps_gives_the_rows_of_table_2(base):
-    """Stroke, peak and efficiency at 5 and 10 us, none of them fitted."""
+    """Stroke, peak and efficiency at 5 and 10 us, with one whole number fitted."""
     table = studies.delay_study(base, [5e-6, 1e-5], [2]).set_index("step")
     for step, row in table.iterrows():
         for name in ("stroke", "peak_pressure", "efficiency"):
@@ -68,6 +73,80 @@ def test_coarse_delays_fail_with_a_status(base):
         studies.delayed(base, 1.0, step=1e-5, delay=-1)
 
 
+@pytest.mark.parametrize("wrong", [{"delay": "2"}, {"delay": 0.5}, {"step": "1e-5"}, {"step": 2.0}])
+def test_delays_that_make_no_sense_are_named(base, wrong):
+    with pytest.raises(SalegError, match=f"{next(iter(wrong))} = "):
+        studies.delay_study(base, [wrong.get("step", 1e-5)], [wrong.get("delay", 1)])
+
+
+def test_no_cost_includes_the_first_call(base, monkeypatch):
+    """The first call, which may compile, is made before the clock starts."""
+    called = []
+
+    def slow_at_first(name):
+        run = getattr(studies, name)
+
+        def spy(engine, duration, **settings):
+            time.sleep(0.0 if called else 0.5)
+            called.append(duration)
+            return run(engine, duration, **settings)
+
+        monkeypatch.setattr(studies, name, spy)
+
+    slow_at_first("simulate")
+    slow_at_first("delayed")
+    for study, arguments in (
+        (studies.step_size_study, ([1e-5],)),
+        (studies.solver_study, ([4],)),
+        (studies.tolerance_study, ([1e-6],)),
+        (studies.stop_time_study, ([0.1],)),
+        (studies.delay_study, ([1e-5], [1])),
+    ):
+        called.clear()
+        settings = {} if study is studies.stop_time_study else {"duration": 0.1}
+        table = study(base, *arguments, **settings)
+        assert table["cost"].max() < 0.5
+        assert called == [studies.WARM_UP, 0.1]
+
+
+def test_an_empty_study_has_its_columns(base):
+    table = studies.step_size_study(base, [])
+    assert list(table) == list(studies.step_size_study(base, [1e-4], duration=0.01))
+    assert len(table) == 0
+
+
+def test_the_thesis_stands_beside_its_base_case_only(base, transient):
+    for engine in (transient, base.replace(bore=0.063)):
+        table = studies.step_size_study(engine, [1e-5], duration=0.1)
+        with pytest.raises(SalegError, match="another engine"):
+            studies.beside_thesis(table, TABLE_2, "step")
+
+
+def test_rows_are_found_however_the_step_was_computed(base):
+    table = studies.step_size_study(base, [3 * 1e-5 / 3, 0.1 * 5e-5], duration=0.1)
+    table = table[table["status"] != ""].sort_values("step").reset_index(drop=True)
+    assert table.attrs["engine"] == base.to_toml()
+    beside = studies.beside_thesis(table, TABLE_2, "step")
+    assert beside["thesis_efficiency"].tolist() == [0.3553, 0.369]
+    with pytest.raises(SalegError, match="no column 'steps' in the study; there are step, order"):
+        studies.beside_thesis(table, TABLE_2, "steps")
+
+
+def test_work_precision_without_fuel_compares_what_there_is():
+    engine = bounce_engine()
+    table = studies.work_precision(
+        engine, orders=[4], steps=[1e-5], tolerances=[1e-6], duration=0.2
+    )
+    assert table["efficiency"].isna().all()
+    assert (table["error"] < 1e-4).all()
+
+
+def test_work_precision_needs_a_figure(base):
+    engine = base.replace(**{"alternator.load_constant": 400.0, "alternator.regulator_gain": 0.0})
+    with pytest.raises(SalegError, match=r"no figures.*stroke fell"):
+        studies.work_precision(engine, duration=2.0)
+
+
 def test_work_precision_and_its_plot(base):
     table = studies.work_precision(
         base, orders=[2, 4], steps=[4e-5, 2e-5], tolerances=[1e-4, 1e-6], duration=0.2
@@ -86,3 +165,11 @@ def test_delay_plot_shows_the_printed_rows(base):
     assert labels == ["no delay", "2 steps late", "thesis, Table 2"]
     assert 36.9 in ax.lines[-1].get_ydata()
     assert "[%]" in ax.get_ylabel()
+    assert "[µs]" in ax.get_xlabel()
+    assert hasattr(ax.figure, "_repr_png_")  # shows in a notebook
+
+
+def test_delay_plot_of_another_engine_has_no_printed_rows(transient):
+    table = studies.delay_study(transient, [5e-6, 1e-5], [0, 2], duration=0.2)
+    ax = saleg.plotting.studies.delay(table)
+    assert [line.get_label() for line in ax.lines] == ["no delay", "2 steps late"]

@@ -21,6 +21,7 @@ from saleg.laws import (
     LinearLoad,
     LinearSprings,
     NoHeatTransfer,
+    NoMisfires,
     ViscousFriction,
     Wiebe,
 )
@@ -34,6 +35,7 @@ from saleg.laws.base import (
     HeatRelease,
     HeatTransfer,
     Ignition,
+    Misfires,
     Springs,
 )
 from saleg.quantities import Problem, is_number, problems, quantity
@@ -119,15 +121,19 @@ class Cylinder(Chamber):
         Equivalence ratio of the charge, phi [-]; 0 cuts the fuel.
     combustion_efficiency : float
         Share of the fuel that can burn, eta_comb [-].
+    late_ignition : float
+        1 if a charge that has not lit by its dead centre may still light itself later, while it is
+        trapped; 0 if it may not [-].
     intake : Intake
     fuel : Fuel
-    gas_properties, heat_transfer, heat_release, ignition, gas_exchange : Law
+    gas_properties, heat_transfer, heat_release, ignition, gas_exchange, misfires : Law
         The laws in the cylinder's slots.
     """
 
     port_closing: float = quantity("m", low=0, open_low=True)
     equivalence_ratio: float = quantity("-", default=0.6, low=0, high=10)
     combustion_efficiency: float = quantity("-", default=0.95, low=0, high=1)
+    late_ignition: float = quantity("-", default=0.0, low=0, high=1)
     intake: Intake = field(default_factory=Intake)
     fuel: Fuel = field(default_factory=Fuel)
     gas_properties: GasProperties = field(default_factory=ChangGas)
@@ -135,6 +141,7 @@ class Cylinder(Chamber):
     heat_release: HeatRelease = field(default_factory=Wiebe)
     ignition: Ignition = field(default_factory=CFRIgnition)
     gas_exchange: GasExchange = field(default_factory=InstantExchange)
+    misfires: Misfires = field(default_factory=NoMisfires)
 
 
 @dataclass(frozen=True, kw_only=True)

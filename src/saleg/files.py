@@ -153,8 +153,15 @@ def _table(path: str, node: Any) -> list[str]:
         if dataclasses.is_dataclass(value):
             below += _table(f"{path}.{item.name}", value)
         else:
-            lines.append(f"{item.name} = {float(value)!r}{_unit_comment(item)}")
+            lines.append(f"{item.name} = {_number_text(value)}{_unit_comment(item)}")
     return lines + below
+
+
+def _number_text(value: Any) -> str:
+    """A number, or a series of them, as TOML."""
+    if isinstance(value, tuple):
+        return f"[{', '.join(repr(float(item)) for item in value)}]"
+    return repr(float(value))
 
 
 def _unit_comment(item: dataclasses.Field[Any]) -> str:
@@ -250,6 +257,8 @@ class _Reader:
             return self._law(value, path, name)
         if in_chamber and name in PARTS:
             return self._part(value, PARTS[name], path)
+        if isinstance(value, list) and all(is_number(item) for item in value):
+            return tuple(float(item) for item in value)  # validation says if one was wanted
         if not is_number(value):
             self.wrong.append(f"{path} = {_short(value)}: must be a number")
             return None

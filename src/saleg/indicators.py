@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 #: Points of the quadrature of adverse work, over the square root of the distance from dead centre.
 ADVERSE_POINTS = 2001
-#: Cycles over which the mean change of the compression ratio is taken.
+#: Cycles whose changes of the compression ratio, each against the one before, are averaged.
 CR_CYCLES = 10
 
 
@@ -141,6 +141,45 @@ class _Branch:
         return rest * rest * start + u * u * end
 
 
+def full_cycles(strokes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First and second strokes of all full cycles, left dead centre to left dead centre."""
+    direction = strokes["direction"]
+    starts = np.flatnonzero((direction[:-1] > 0.0) & (direction[1:] < 0.0))
+    return strokes[starts], strokes[starts + 1]
+
+
+def cycle_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
+    """Geometric compression ratio of every full cycle, between its outermost positions [-]."""
+    out, back = full_cycles(strokes)
+    return compression_ratio(engine, np.minimum(out["x_start"], back["x_end"]), out["x_end"])
+
+
+def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
+    """Geometric compression ratio between two positions, the mean of the cylinders' [-].
+
+    Parameters
+    ----------
+    engine : Engine
+    low, high : float or ndarray
+        Dead centres [m].
+
+    Returns
+    -------
+    float or ndarray
+        For a symmetric orbit ``(L + S/2) / (L - S/2)``. Without a cylinder, of both chambers.
+    """
+    left, right = engine.chambers
+    ratios = [
+        (left.half_stroke + high) / (left.half_stroke + low),
+        (right.half_stroke - low) / (right.half_stroke - high),
+    ]
+    fired = [isinstance(chamber, Cylinder) for chamber in engine.chambers]
+    chosen = [
+        ratio for ratio, counts in zip(ratios, fired, strict=True) if counts or not any(fired)
+    ]
+    return sum(chosen) / len(chosen)
+
+
 def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:
     """How well the last cycle repeats the ones before it, as the thesis measures it.
 
@@ -155,14 +194,10 @@ def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:
     stability : float
         Change of the left dead centre over the cycle, in half strokes [-] (Eq. 68).
     cr_change : float
-        Mean change of the compression ratio from cycle to cycle over the last ten [-]; NaN for a
-        single cycle.
+        Mean magnitude of the change of the compression ratio from cycle to cycle, over the last
+        ten changes [-]; NaN for a single cycle.
     """
-    from saleg.performance import compression_ratio
-
     half = 0.5 * engine.maximum_stroke
     stability = abs(float(strokes["x_end"][-1] - strokes["x_start"][-2])) / half
-    ends = strokes[len(strokes) % 2 :][-2 * (CR_CYCLES + 1) :]
-    ratios = compression_ratio(engine, ends["x_end"][1::2], ends["x_end"][::2])
-    changes = np.abs(np.diff(ratios))
+    changes = np.abs(np.diff(cycle_compression_ratios(engine, strokes)))[-CR_CYCLES:]
     return stability, float(changes.mean()) if len(changes) else math.nan

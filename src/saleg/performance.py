@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from saleg.engine import Cylinder, Engine
-from saleg.indicators import adverse_work, repeatability, timing
+from saleg.indicators import adverse_work, cycle_compression_ratios, repeatability, timing
 
 nan = math.nan
 
@@ -67,7 +67,8 @@ class Performance:
     stability : float
         Change of the left dead centre over the cycle, in half strokes [-] (Eq. 68).
     cr_change : float
-        Mean change of the compression ratio per cycle over the last ten cycles [-].
+        Mean magnitude of the change of the compression ratio from cycle to cycle, over the last
+        ten changes [-].
     """
 
     stroke: float
@@ -128,7 +129,6 @@ class Performance:
             The cycle's history.
         """
         period = float(strokes["duration"].sum())
-        ends = np.concatenate([strokes["x_start"], strokes["x_end"]])
         power = float(strokes["electrical_energy"].sum()) / period
         fuel = float(strokes["fresh_fuel_energy"].sum())
         cylinders = [isinstance(chamber, Cylinder) for chamber in engine.chambers]
@@ -138,9 +138,7 @@ class Performance:
         masses = strokes["charge_mass"][-1][cylinders] if any(cylinders) else np.array([nan])
         return cls(
             stroke=float(np.abs(strokes["x_end"] - strokes["x_start"]).mean()),
-            compression_ratio=float(
-                compression_ratio(engine, float(ends.min()), float(ends.max()))
-            ),
+            compression_ratio=float(cycle_compression_ratios(engine, strokes)[0]),
             frequency=1.0 / period,
             power=power,
             rms_power=math.sqrt(max(float(strokes["electrical_squared"].sum()), 0.0) / period),
@@ -163,32 +161,6 @@ class Performance:
             stability=stability,
             cr_change=cr_change,
         )
-
-
-def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
-    """Geometric compression ratio between two positions, the mean of the cylinders' [-].
-
-    Parameters
-    ----------
-    engine : Engine
-    low, high : float or ndarray
-        Dead centres [m].
-
-    Returns
-    -------
-    float or ndarray
-        For a symmetric orbit ``(L + S/2) / (L - S/2)``. Without a cylinder, of both chambers.
-    """
-    left, right = engine.chambers
-    ratios = [
-        (left.half_stroke + high) / (left.half_stroke + low),
-        (right.half_stroke - low) / (right.half_stroke - high),
-    ]
-    fired = [isinstance(chamber, Cylinder) for chamber in engine.chambers]
-    chosen = [
-        ratio for ratio, counts in zip(ratios, fired, strict=True) if counts or not any(fired)
-    ]
-    return sum(chosen) / len(chosen)
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from saleg.errors import StartError
 from saleg.kernel import layout
 from saleg.kernel.compose import check_laws
-from saleg.kernel.rhs import rhs
+from saleg.kernel.rhs import refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
 from saleg.start import Contents
@@ -61,22 +62,34 @@ def prepare(engine: Engine) -> State:
 
 
 def _prepare(engine: Engine) -> State:
+    """Fill plain objects, let the kernel's own functions work on them, and pack them at last."""
     start = engine.start.initial(engine)
-    E = np.zeros(1, layout.ENGINE_RECORD).view(np.recarray)
-    C = np.zeros(2, layout.CHAMBER_RECORD).view(np.recarray)
-    y = np.zeros(layout.N_ALL)
+    E = SimpleNamespace(**dict.fromkeys(layout.ENGINE_RECORD.names or (), 0.0))
+    C = [SimpleNamespace(**dict.fromkeys(layout.CHAMBER_RECORD.names or (), 0.0)) for _ in "lr"]
+    y = [0.0] * layout.N_ALL
     y[layout.X], y[layout.V] = start.x, start.v
     for side, held in enumerate((start.left, start.right)):
         _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
         _fill_contents(C[side], held, y, side)
-    _fill_engine(E[0], engine, start, C)
+    _fill_engine(E, engine, start, C)
+    refresh(engine, E, C)
     for side, held in enumerate((start.left, start.right)):
         if held.burning:
-            ignite(engine, E[0], C, side, y, 0)
-    dy = np.zeros(layout.N_ALL)
-    rhs(engine, E[0], C, 0.0, y, dy, 0)
-    E[0].direction = np.sign(y[layout.V]) or np.sign(dy[layout.V])
-    return State(E.view(np.ndarray), C.view(np.ndarray), y, np.zeros(layout.N_PEAKS))
+            ignite(engine, E, C, side, y, 0)
+    dy = [0.0] * layout.N_ALL
+    rhs(engine, E, C, 0.0, y, dy, 0)
+    E.direction = sign(y[layout.V]) or sign(dy[layout.V])
+    return State(
+        np.array([tuple(vars(E).values())], layout.ENGINE_RECORD),
+        np.array([tuple(vars(c).values()) for c in C], layout.CHAMBER_RECORD),
+        np.array(y),
+        np.zeros(layout.N_PEAKS),
+    )
+
+
+def sign(value: float) -> float:
+    """-1, 0 or 1 [-]."""
+    return math.copysign(1.0, value) if value != 0.0 else 0.0
 
 
 def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
@@ -89,19 +102,30 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     E.mean_piston_speed = start.mean_piston_speed
     E.x_dead_centre = start.x if start.at_dead_centre else math.nan
     E.next_step = 1e-3 * length / E.speed_scale
-    E.last_error = 1e-4
+    E.ln_last_error = -9.21
     moving = start.mean_piston_speed > 0.0
     guess = Stroke(
         length=start.stroke,
         duration=start.stroke / start.mean_piston_speed if moving else math.inf,
         maximum=engine.maximum_stroke,
         half_maximum=length,
-        piston_area=0.5 * float(C.area.sum()),
+        piston_area=0.5 * (C[0].area + C[1].area),
         fuel_energy=0.0,
         speed_squared=0.0,
     )
     E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
+    E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
+
+
+def current_scale(engine: Engine, load_weight: float, speed: float) -> float:
+    """Current at which the alternator balances at some speed [m/s], in A; 1 if it has none."""
+    weight = max(load_weight, 1.0)
+    idle, loaded = (
+        engine.alternator.current_rate(weight, Motion(0.0, 0.0, speed, 1.0, current))
+        for current in (0.0, 1.0)
+    )
+    return abs(idle / (idle - loaded)) if idle != 0.0 and idle != loaded else 1.0
 
 
 def _stiffness(engine: Engine, length: float) -> float:
@@ -132,6 +156,7 @@ def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
         c.lower_heating_value = chamber.fuel.lower_heating_value  # type: ignore[attr-defined]
         c.air_fuel_ratio = chamber.fuel.air_fuel_ratio  # type: ignore[attr-defined]
         c.combustion_efficiency = chamber.combustion_efficiency  # type: ignore[attr-defined]
+        c.late_ignition = chamber.late_ignition  # type: ignore[attr-defined]
     else:
         c.port = math.inf
         c.intake_pressure = chamber.pressure  # type: ignore[attr-defined]
@@ -141,9 +166,9 @@ def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
     c.p_closing, c.T_closing, c.V_closing = c.intake_pressure, c.intake_temperature, c.area * full
 
 
-def _fill_contents(c: Any, held: Contents, y: np.ndarray, side: int) -> None:
+def _fill_contents(c: Any, held: Contents, y: list[float], side: int) -> None:
     c.mode = layout.OPEN if held.is_open else layout.CLOSED
-    c.armed = int(held.armed and held.fuel > 0.0)
+    c.armed = layout.ARMED if held.armed and held.fuel > 0.0 else layout.DISARMED
     c.mass, c.fuel, c.air, c.burnt = held.mass, held.fuel, held.air, held.burnt
     c.equivalence_ratio = held.fuel * c.air_fuel_ratio / max(held.air, 1e-300)
     height = c.half_stroke + c.sign * y[layout.X]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import reprlib
 from typing import Any, NamedTuple
@@ -46,6 +47,61 @@ def quantity(
     """
     limits = Limits(unit, float(low), float(high), open_low, open_high)
     return dataclasses.field(default=default, metadata={"limits": limits})
+
+
+def series(
+    unit: str,
+    *,
+    default: Any = dataclasses.MISSING,
+    low: float = -math.inf,
+    high: float = math.inf,
+    rising: bool = False,
+    at_least: int = 1,
+    length: str = "",
+) -> Any:
+    """Declare a dataclass field that holds some numbers of one unit, as a tuple.
+
+    Parameters
+    ----------
+    unit : str
+        SI unit as people write it.
+    default : tuple of float, optional
+        Default values; the field is required without.
+    low, high : float
+        Allowed range of every number.
+    rising : bool
+        Whether every number must be greater than the one before.
+    at_least : int
+        Fewest numbers.
+    length : str
+        Name of the fields that say how many numbers there must be: one series, or several
+        joined by ``*`` for a table over all their combinations.
+
+    Returns
+    -------
+    dataclasses.Field
+        To be used as the right-hand side of an annotated class attribute.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True)
+    ... class Profile:
+    ...     x: tuple[float, ...] = series("m", rising=True)
+    >>> str(problems(Profile((0.0, 2.0, 1.0)))[0])
+    'x = (0.0, 2.0, 1.0) [m]: every number must be greater than the one before'
+    """
+    limits = Limits(unit, float(low), float(high), False, False)
+    shape = Shape(rising, at_least, length)
+    return dataclasses.field(default=default, metadata={"limits": limits, "series": shape})
+
+
+class Shape(NamedTuple):
+    """How many numbers a series has, and in which order."""
+
+    rising: bool
+    at_least: int
+    length: str
 
 
 class Limits(NamedTuple):
@@ -122,7 +178,9 @@ def problems(node: Any, path: str = "") -> list[Problem]:
         value = getattr(node, field.name)
         where = f"{path}.{field.name}" if path else field.name
         limits = field.metadata.get("limits")
-        if limits is not None:
+        if "series" in field.metadata:
+            found.extend(_series_problems(node, field, where))
+        elif limits is not None:
             if not is_number(value):
                 found.append(Problem(where, value, limits.unit, limits.wanted("a number")))
             elif not math.isfinite(value) or not limits.admits(float(value)):
@@ -133,3 +191,29 @@ def problems(node: Any, path: str = "") -> list[Problem]:
         elif hasattr(node, "compiled") and not is_number(value):  # a law's record holds numbers
             found.append(Problem(where, value, "", "must be a number: a law holds numbers only"))
     return found
+
+
+def _series_problems(node: Any, field: dataclasses.Field[Any], where: str) -> list[Problem]:
+    """What is wrong with a field declared with :func:`series`."""
+    limits, shape = field.metadata["limits"], field.metadata["series"]
+    values = getattr(node, field.name)
+
+    def wrong(allowed: str) -> list[Problem]:
+        return [Problem(where, values, limits.unit, allowed)]
+
+    if not isinstance(values, tuple) or not all(is_number(value) for value in values):
+        return wrong("must be a tuple of numbers")
+    if not all(math.isfinite(value) and limits.admits(float(value)) for value in values):
+        return wrong(f"every number {limits.wanted()}")
+    if len(values) < shape.at_least:
+        return wrong(f"must have at least {shape.at_least} numbers")
+    if shape.rising and any(a >= b for a, b in itertools.pairwise(values)):
+        return wrong("every number must be greater than the one before")
+    if shape.length:
+        others = [getattr(node, name) for name in shape.length.split("*")]
+        if not all(isinstance(other, (tuple, list)) for other in others):
+            return []
+        count = math.prod(len(other) for other in others)
+        if len(values) != count:
+            return wrong(f"must have {count} numbers, to go with {shape.length}")
+    return []

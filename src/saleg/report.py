@@ -49,4 +49,15 @@ def describe_performance(performance: Performance) -> str:
 def describe_run(run: Run) -> str:
     """Run as a short report."""
     head = f"{run.engine.name}: {run.status} - {run.message}"
-    return f"{head}\n{describe_performance(run.performance)}"
+    return "\n".join([head, describe_performance(run.performance), *describe_ranges(run)])
+
+
+def describe_ranges(run: Run) -> list[str]:
+    """A line for every law that was asked outside the range it was made for."""
+    exits = run.range_exits.drop_duplicates(["law", "quantity"])
+    return [
+        f"  outside its range: {row.law} is for {row.quantity.replace('_', ' ')} "
+        f"{row.low:g} to {row.high:g} {'' if row.unit == '-' else row.unit}, "
+        f"saw {row.seen_low:.4g} to {row.seen_high:.4g} ({row.source})"
+        for row in exits.itertuples()
+    ]

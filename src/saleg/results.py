@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.engine import Engine
-from saleg.kernel.layout import EVENT_NAMES
+from saleg.kernel.layout import EVENT_NAMES, HISTORY_RECORD
 from saleg.performance import EnergyBalance, Performance
 from saleg.status import Status
 from saleg.tables import cycle_table, event_table, history_table
@@ -87,6 +87,19 @@ class Run:
     def orbit(self) -> Run | None:
         """The last full cycle again, with its whole history and all peaks located; or None."""
         return self.replay() if self.replay is not None else None
+
+    @cached_property
+    def range_exits(self) -> pd.DataFrame:
+        """Where the last full cycle left the ranges its laws were made for; one row each.
+
+        See :func:`saleg.ranges.range_exits`. Empty without a full cycle.
+        """
+        from saleg.ranges import range_exits
+
+        orbit = self.orbit
+        if orbit is None or orbit.history_rows is None:
+            return range_exits(self.engine, self.strokes[:0], np.zeros(0, HISTORY_RECORD))
+        return range_exits(self.engine, orbit.strokes, orbit.history_rows)
 
     @cached_property
     def performance(self) -> Performance:

@@ -14,7 +14,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout, tableaus
-from saleg.kernel.compose import Kernel, kernel_for, parameters
+from saleg.kernel.compose import Kernel, kernel_for, needs_motored_pressure, parameters
 from saleg.prepare import State, prepare
 from saleg.quantities import is_number
 from saleg.records import Records
@@ -166,6 +166,8 @@ def _settings(
 
 def integrate(engine: Engine, state: State, settings: Settings) -> Run:
     """Integrate from a state; the engine is taken to be valid."""
+    if needs_motored_pressure(engine):
+        settings = replace(settings, motored_pressure=True)
     kernel = kernel_for(engine)
     P = parameters(engine)
     options = options_record(settings, float(state.engine["t"][0]) + settings.duration)

@@ -16,5 +16,10 @@ class Status(enum.Enum):
     STEP_FAILURE = "step failure"
     INVALID = "invalid"
 
+    @property
+    def ended_well(self) -> bool:
+        """Whether the run went on to the end of its time with the engine doing its work."""
+        return self in (Status.STEADY, Status.COMPLETED)
+
     def __str__(self) -> str:
         return self.value

@@ -1,25 +1,31 @@
 """Numerical studies: how results depend on step, solver and stop time (3.6.2, Tables 2-4).
 
-Each returns one row per setting, with its cost. Beside them an emulation of lagging cylinder
-blocks, which shows where an error like the thesis' comes from.
+Each returns one row per setting, with its cost: seconds of waiting for a kernel that is compiled
+and loaded. Its ``.attrs`` hold ``units``, and as ``engine`` the TOML text of the engine studied.
+Beside them an emulation of lagging cylinder blocks, which shows where an error like the thesis'
+comes from.
 """
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from saleg.engine import Engine
+from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.compose import kernel_for, parameters
 from saleg.kernel.tableaus import FIXED_STEP
 from saleg.prepare import prepare
+from saleg.quantities import is_number
 from saleg.records import Records
 from saleg.results import Run
-from saleg.simulate import Settings, options_record, simulate
+from saleg.simulate import Settings, SettingsError, options_record, simulate
+from saleg.thesis_tables import is_of_base_case
 from saleg.verdict import verdict
 
 if TYPE_CHECKING:
@@ -48,6 +54,12 @@ UNITS = {
     "error": "-",
 }
 FIGURES = ("peak_pressure", "stroke", "efficiency", "power", "frequency")
+#: Time simulated [s] before the clock of a study starts, so that no cost includes compilation.
+WARM_UP = 1e-3
+
+
+class StudyError(SalegError, ValueError):
+    """A study that cannot be made, or not be set beside the thesis."""
 
 
 def step_size_study(
@@ -72,7 +84,7 @@ def step_size_study(
     Returns
     -------
     DataFrame
-        One row per step; SI units in ``.attrs["units"]``, cost in seconds of waiting.
+        One row per step, in SI units.
 
     Examples
     --------
@@ -81,11 +93,9 @@ def step_size_study(
     >>> bool(abs(table["efficiency"].diff().iloc[1]) < 1e-6)
     True
     """
-    rows = [
-        _row({"step": step, "order": order}, simulate, engine, duration, step=step, order=order)
-        for step in steps
-    ]
-    return _table(rows)
+    settings = [{"step": step, "order": order} for step in steps]
+    cases = [(given, duration, given) for given in settings]
+    return _study(simulate, engine, ["step", "order"], cases)
 
 
 def solver_study(
@@ -112,11 +122,9 @@ def solver_study(
     DataFrame
         One row per order.
     """
-    rows = [
-        _row({"order": order, "step": step}, simulate, engine, duration, step=step, order=order)
-        for order in orders
-    ]
-    return _table(rows)
+    settings = [{"order": order, "step": step} for order in orders]
+    cases = [(given, duration, given) for given in settings]
+    return _study(simulate, engine, ["order", "step"], cases)
 
 
 def work_precision(
@@ -143,9 +151,20 @@ def work_precision(
     -------
     DataFrame
         One row per run: method, setting, right-hand sides, cost [s] and error, the greatest
-        relative deviation of the figures from a run at 1e-12.
+        relative deviation of the figures from a run at 1e-12. Figures that have no relative
+        deviation are left out: those that run does not define (the efficiency of an engine
+        without fuel) or finds to be zero.
+
+    Raises
+    ------
+    StudyError
+        If no figure is left, as for an engine that stalls.
     """
-    wanted = simulate(engine, duration, rtol=1e-12).performance.to_dict()
+    exact = simulate(engine, duration, rtol=1e-12)
+    wanted = {name: getattr(exact.performance, name) for name in FIGURES}
+    compared = {name: value for name, value in wanted.items() if math.isfinite(value) and value}
+    if not compared:
+        raise StudyError(f"nothing to compare: the run has no figures ({exact.message})")
     steps = list(steps)
     tables = {
         f"order {order}": step_size_study(engine, steps, duration=duration, order=order)
@@ -155,10 +174,9 @@ def work_precision(
     import pandas as pd
 
     table = pd.concat(tables, names=["method"]).reset_index(level=0).reset_index(drop=True)
-    deviations = [(table[name] / wanted[name] - 1.0).abs() for name in FIGURES]
+    deviations = [(table[name] / value - 1.0).abs() for name, value in compared.items()]
     table["error"] = pd.concat(deviations, axis=1).max(axis=1, skipna=False)
-    table.attrs["units"] = {str(name): UNITS[str(name)] for name in table}
-    return table
+    return _described(table, engine)
 
 
 def beside_thesis(
@@ -169,7 +187,7 @@ def beside_thesis(
     Parameters
     ----------
     table : DataFrame
-        A study of the base case.
+        A study of the thesis' base case, unmodified.
     printed : mapping
         Rows of the thesis by the value of `key`, for instance ``thesis_tables.TABLE_2``.
     key : str
@@ -180,14 +198,31 @@ def beside_thesis(
     DataFrame
         The study with a column ``thesis_...`` for every figure printed; NaN where the thesis
         prints none, as for its unstable run.
+
+    Raises
+    ------
+    StudyError
+        If the study is of another engine, or has no column `key`.
     """
+    if not is_of_base_case(table):
+        raise StudyError(
+            "the thesis prints these rows for its base case only, and this study is of another "
+            "engine, or is a table whose .attrs were lost"
+        )
+    if key not in table:
+        raise StudyError(f"no column {key!r} in the study; there are {', '.join(map(str, table))}")
     result = table.copy()
-    names = dict.fromkeys(name for row in printed.values() for name in row)
-    for name in names:
-        values = [printed.get(value, {}).get(name, float("nan")) for value in table[key]]
-        result[f"thesis_{name}"] = values
+    rows = [_row_at(printed, value) for value in table[key]]
+    for name in dict.fromkeys(name for row in printed.values() for name in row):
+        result[f"thesis_{name}"] = [row.get(name, math.nan) for row in rows]
         result.attrs["units"][f"thesis_{name}"] = UNITS[name]
     return result
+
+
+def _row_at(printed: Mapping[float, Mapping[str, float]], value: float) -> Mapping[str, float]:
+    """The row printed for a value, however the value was computed; empty if there is none."""
+    found = (row for key, row in printed.items() if math.isclose(key, value, rel_tol=1e-9))
+    return next(found, {})
 
 
 def stop_time_study(
@@ -210,7 +245,8 @@ def stop_time_study(
     DataFrame
         One row per time.
     """
-    return _table([_row({"stop_time": stop}, simulate, engine, stop, **settings) for stop in times])
+    cases = [({"stop_time": stop}, stop, settings) for stop in times]
+    return _study(simulate, engine, ["stop_time"], cases)
 
 
 def tolerance_study(
@@ -231,9 +267,8 @@ def tolerance_study(
     DataFrame
         One row per tolerance.
     """
-    return _table(
-        [_row({"rtol": rtol}, simulate, engine, duration, rtol=rtol) for rtol in tolerances]
-    )
+    settings = [{"rtol": rtol} for rtol in tolerances]
+    return _study(simulate, engine, ["rtol"], [(given, duration, given) for given in settings])
 
 
 def delay_study(
@@ -264,15 +299,12 @@ def delay_study(
     DataFrame
         One row per step and delay.
     """
-    rows = [
-        _row({"step": step, "delay": delay}, delayed, engine, duration, step=step, delay=delay)
-        for step in steps
-        for delay in delays
-    ]
-    return _table(rows)
+    settings = [{"step": step, "delay": delay} for step in steps for delay in delays]
+    cases = [(given, duration, given) for given in settings]
+    return _study(delayed, engine, ["step", "delay"], cases)
 
 
-def delayed(engine: Engine, duration: float, *, step: float, delay: int) -> Run:
+def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> Run:
     """Simulate with the cylinder blocks lagging behind, for :func:`delay_study`.
 
     Heun's method on a grid; modes change at grid points only, and the translator feels the gas
@@ -295,11 +327,16 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int) -> Run:
 
     Raises
     ------
-    ValueError
-        If step or delay make no sense.
+    SettingsError
+        If duration, step or delay make no sense.
     """
-    if not 0.0 < step < duration or delay < 0 or delay != int(delay):
-        raise ValueError(f"step = {step!r}, delay = {delay!r}: a delay is a number of whole steps")
+    for name, value in (("duration", duration), ("step", step), ("delay", delay)):
+        if not is_number(value) or not math.isfinite(value):
+            raise SettingsError(f"{name} = {value!r}: must be a number")
+    if not 0.0 < step < duration:
+        raise SettingsError(f"step = {step!r}: must be > 0 and < duration ({duration:g} s)")
+    if delay < 0 or delay != int(delay):
+        raise SettingsError(f"delay = {delay!r}: must be a number of whole steps")
     engine.validate()
     kernel, state = kernel_for(engine, DELAYED), prepare(engine)
     records = Records(False, None)
@@ -358,24 +395,42 @@ def _gas_force(state: Any) -> float:
     return float(total)
 
 
-def _row(labels: dict[str, Any], run: Any, *arguments: Any, **settings: Any) -> dict[str, Any]:
-    """Run and reduce to a row: labels, status, figures, cost."""
+#: Labels of a row, time to simulate [s], settings of the run.
+Case = tuple[Mapping[str, Any], float, Mapping[str, Any]]
+
+
+def _study(
+    run: Callable[..., Run], engine: Engine, labels: Sequence[str], cases: Sequence[Case]
+) -> pd.DataFrame:
+    """One row per case, once the kernel is warm."""
+    import pandas as pd
+
+    run(engine, WARM_UP, step=0.1 * WARM_UP)
+    rows = [
+        {**names, **_figures(run, engine, duration, settings)}
+        for names, duration, settings in cases
+    ]
+    columns = [*labels, "status", *FIGURES, "evaluations", "cost"]
+    return _described(pd.DataFrame(rows, columns=columns), engine)
+
+
+def _figures(
+    run: Callable[..., Run], engine: Engine, duration: float, settings: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Status, figures and cost of a run."""
     begin = time.perf_counter()
-    result = run(*arguments, **settings)
+    result = run(engine, duration, **settings)
     cost = time.perf_counter() - begin
-    figures = result.performance.to_dict()
     return {
-        **labels,
         "status": str(result.status),
-        **{name: figures[name] for name in FIGURES},
+        **{name: getattr(result.performance, name) for name in FIGURES},
         "evaluations": result.evaluations,
         "cost": cost,
     }
 
 
-def _table(rows: list[dict[str, Any]]) -> pd.DataFrame:
-    import pandas as pd
-
-    frame = pd.DataFrame(rows)
-    frame.attrs["units"] = {str(name): UNITS[str(name)] for name in frame}
-    return frame
+def _described(table: pd.DataFrame, engine: Engine) -> pd.DataFrame:
+    """The table, with its units and the engine it is of."""
+    table.attrs["units"] = {str(name): UNITS[str(name)] for name in table}
+    table.attrs["engine"] = engine.to_toml()
+    return table

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.engine import Engine
-from saleg.performance import compression_ratio
+from saleg.indicators import cycle_compression_ratios, full_cycles
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -67,6 +67,7 @@ HISTORY_UNITS = {
     "alternator_force": "N",
     "electrical_power": "W",
     "load_weight": "-",
+    "current": "A",
 }
 
 
@@ -74,10 +75,8 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
     """One row per full cycle, left dead centre to left dead centre."""
     import pandas as pd
 
-    starts = np.flatnonzero((strokes["direction"][:-1] > 0.0) & (strokes["direction"][1:] < 0.0))
-    out, back = strokes[starts], strokes[starts + 1]
+    out, back = full_cycles(strokes)
     travelled = np.abs(out["x_end"] - out["x_start"]) + np.abs(back["x_end"] - back["x_start"])
-    low = np.minimum(out["x_start"], back["x_end"])
     period = out["duration"] + back["duration"]
     electrical = out["electrical_energy"] + back["electrical_energy"]
     fuel = out["fresh_fuel_energy"].sum(axis=1) + back["fresh_fuel_energy"].sum(axis=1)
@@ -90,7 +89,7 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
         "stroke": 0.5 * travelled,
         "x_left": back["x_end"],
         "x_right": out["x_end"],
-        "compression_ratio": compression_ratio(engine, low, out["x_end"]),
+        "compression_ratio": cycle_compression_ratios(engine, strokes),
         "power": electrical / period,
         "efficiency": efficiency,
         "load_weight": back["load_weight"],

@@ -13,6 +13,8 @@ from saleg.machines import CATALOGUE
 from saleg.report import FIGURES
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from saleg.engine import Engine
     from saleg.results import Run
 
@@ -150,10 +152,11 @@ def comparison(run: Run) -> str | None:
     -------
     str or None
         An aligned table of the figures printed there, with deviations in percent, and an
-        explanation; None unless the engine is one of the thesis', unmodified.
+        explanation; None unless the engine is one of the thesis', unmodified, and completed a
+        cycle.
     """
     name = run.engine.name
-    if not is_published(run.engine):
+    if not is_published(run.engine) or run.last_cycle_strokes is None:
         return None
     columns = COLUMNS[name]
     head = f"  {'':<24} {'saleg':>10} {'':<6}"
@@ -172,6 +175,11 @@ def comparison(run: Run) -> str | None:
 def is_published(engine: Engine) -> bool:
     """Whether an engine is one of the thesis', with nothing changed."""
     return engine.name in COLUMNS and engine == CATALOGUE[engine.name]()
+
+
+def is_of_base_case(study: pd.DataFrame) -> bool:
+    """Whether a study of :mod:`saleg.studies` is of the engine of Tables 2 to 4."""
+    return study.attrs.get("engine") == CATALOGUE["thesis-base"]().to_toml()
 
 
 def _beside(column: Column, figure: str, value: float) -> str:

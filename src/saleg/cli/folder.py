@@ -8,8 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from saleg.export import csv_folder, formats, place
-from saleg.export.csv_folder import write_table as _write_table
-from saleg.export.csv_folder import write_text as _write_text
 from saleg.export.description import as_tables
 from saleg.export.units import PERFORMANCE_UNITS
 
@@ -48,18 +46,13 @@ def new_folder(target: Path, force: bool = False) -> AbstractContextManager[Path
 def write_run(run: Run, folder: Path, wanted: Sequence[str] = ("csv",)) -> list[str]:
     """Write the engine, the run in the formats wanted, and plots; returns the names of the files.
 
-    Without a full cycle there are no plots, and the tables alone instead of a whole run in CSV.
+    Without a full cycle there are no plots.
     """
     description = as_tables(run)
-    _write_text(folder / csv_folder.ENGINE, description.engine_toml)
-    if "csv" in wanted:
-        if run.orbit is not None:
-            _write_text(folder / csv_folder.FACTS, description.run_json)
-        for name, table in description.tables.items():
-            if run.orbit is not None or name != "strokes":
-                _write_table(folder / f"{name}.csv", table)
-    for suffix in (FORMATS[word] for word in wanted if FORMATS[word]):
-        formats.SUFFIXES[suffix].write(description, folder / f"run{suffix}")
+    csv_folder.write_text(folder / csv_folder.ENGINE, description.engine_toml)
+    for suffix in (FORMATS[word] for word in wanted):
+        target = folder / f"run{suffix}" if suffix else folder
+        formats.SUFFIXES[suffix].write(description, target)
     if run.orbit is not None:
         _write_plots(run, folder)
     return [name for name in KNOWN if (folder / name).exists()]

@@ -14,7 +14,6 @@ from saleg.files import SLOTS, laws_by_slot, nearest, read_toml
 from saleg.machines import CATALOGUE
 from saleg.results import Run
 from saleg.simulate import simulate
-from saleg.status import Status
 
 
 class CommandError(SalegError, ValueError):
@@ -39,6 +38,7 @@ def add_to(commands: Any) -> None:
     add("--order", type=int, metavar="N", help="order of the fixed-step method: 1-5 or 8 (4)")
     add("--step", type=float, metavar="S", help="fixed step [s] (5e-6)")
     add("--rtol", type=float, metavar="R", help="tolerance of the adaptive method (1e-8)")
+    add("--history", type=int, metavar="N", help="keep every N-th step for the files in DIR (none)")
     add("--out", type=Path, metavar="DIR", help="write plots, tables and engine to a new folder")
     add("--format", metavar="F,...", help=f"formats in DIR, of {', '.join(FORMATS)} (csv)")
     add("--force", action="store_true", help="replace DIR if it holds an earlier run")
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> bool:
             names = write_run(result, folder, wanted)
         print(report(result))
         print(f"\nwrote {options.out}: {', '.join(names)}")
-    return result.status in (Status.STEADY, Status.COMPLETED)
+    return result.status.ended_well
 
 
 def load(name: str) -> Engine:
@@ -129,7 +129,9 @@ def _settings(options: argparse.Namespace) -> dict[str, Any]:
     strange = given if method == "adaptive" else ["--rtol"] * (options.rtol is not None)
     if strange:
         raise CommandError(f"{strange[0]} does not belong to the {method} method")
-    chosen = {"order": options.order, "step": options.step, "rtol": options.rtol}
+    if options.history is not None and options.out is None:
+        raise CommandError("--history belongs to --out DIR")
+    chosen = {name: getattr(options, name) for name in ("order", "step", "rtol", "history")}
     settings = {name: value for name, value in chosen.items() if value is not None}
     return {"method": method, **settings}
 
@@ -139,6 +141,5 @@ def report(result: Run) -> str:
     from saleg.report import describe_run
     from saleg.thesis_tables import comparison
 
-    well = result.status in (Status.STEADY, Status.COMPLETED)
-    table = comparison(result) if well else None
+    table = comparison(result) if result.status.ended_well else None
     return describe_run(result) + (f"\n\n{table}" if table else "")

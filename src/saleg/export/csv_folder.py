@@ -58,12 +58,12 @@ def _texts(column: Column, start: int) -> Iterator[str]:
 class _Stored:
     """What a folder holds; its tables are read one at a time."""
 
-    is_exact = False  # an editor may have changed ends of lines; a NaN has no sign
+    is_exact = False  # a NaN has no sign in text
 
     def __init__(self, folder: Path):
         self._folder = folder
-        self.engine_toml = (folder / ENGINE).read_bytes().decode("utf-8")
-        self.run_json = (folder / FACTS).read_bytes().decode("utf-8")
+        self.engine_toml = _read_text(folder / ENGINE)
+        self.run_json = _read_text(folder / FACTS)
 
     def table(self, name: str) -> dict[str, np.ndarray]:
         """Columns of a table."""
@@ -74,6 +74,11 @@ class _Stored:
             column: _codes(column, rows[label]) if column in CODES else rows[label]
             for column, label in labels.items()
         }
+
+
+def _read_text(path: Path) -> str:
+    """A text as :func:`write_text` wrote it, whatever ends of lines an editor gave it since."""
+    return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
 
 
 def _codes(column: str, texts: np.ndarray) -> np.ndarray:

@@ -81,6 +81,11 @@ class Description:
             for name, table in self.tables.items()
         }
 
+    @property
+    def size(self) -> int:
+        """Memory of all columns [bytes]."""
+        return sum(held.values.nbytes for table in self.tables.values() for held in table.values())
+
     def table(self, name: str) -> dict[str, np.ndarray]:
         """Values of a table by column."""
         return {column: held.values for column, held in self.tables[name].items()}
@@ -99,7 +104,8 @@ class Stored(Protocol):
     Attributes
     ----------
     is_exact : bool
-        Whether texts and numbers are there bit by bit, so that their checksums must agree.
+        Whether the numbers are there bit by bit, so that their checksums must agree; that of the
+        texts always must.
     """
 
     is_exact: ClassVar[bool]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import errno
+import os
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,6 +17,8 @@ from saleg.export.extras import extra
 
 KIND = "HDF5 file"
 NEEDS = ("h5py",)
+#: What a file takes beside its columns [bytes], with some to spare.
+OVERHEAD = 2_000_000
 
 
 def attributes(column: Column) -> dict[str, Any]:
@@ -28,12 +33,23 @@ def attributes(column: Column) -> dict[str, Any]:
 
 def write(description: Description, path: Path) -> None:
     """Write a description; columns go to the file one by one."""
-    with extra("h5py").File(path, "w", track_order=True) as file:
+    with writing(description, path), extra("h5py").File(path, "w", track_order=True) as file:
         file.attrs.update(description.texts)
         for table, columns in description.tables.items():
             group = file.create_group(table, track_order=True)
             for name, column in columns.items():
                 group.create_dataset(name, data=column.values).attrs.update(attributes(column))
+
+
+@contextmanager
+def writing(description: Description, path: Path) -> Iterator[None]:
+    """Refuse a disk without room, on which the HDF5 library can crash the whole process."""
+    if shutil.disk_usage(path.parent).free < description.size + OVERHEAD:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    try:
+        yield
+    except RuntimeError as error:  # so the library calls what goes wrong in closing a file
+        raise OSError(str(error)) from error
 
 
 class _Stored:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import xarray
 
 KIND = "netCDF file"
-NEEDS = ("h5netcdf", "xarray")
+NEEDS = ("h5netcdf", "xarray", "h5py")
 #: A netCDF file is an HDF5 file, with tables and columns where our HDF5 files have them.
 opened = hdf5.opened
 #: Dimension of a table; the others go along time, and the performance is single numbers.
@@ -70,10 +70,13 @@ def _dataset(table: Table, dimension: str, texts: dict[str, str]) -> xarray.Data
 
 def write(description: Description, path: Path) -> None:
     """Write a description as groups of a netCDF file, column by column."""
-    extra("h5netcdf")
-    xarray = extra("xarray")
-    xarray.Dataset(attrs=description.texts).to_netcdf(path, engine="h5netcdf")
-    for name, table in description.tables.items():
-        dataset = _dataset(table, DIMENSIONS.get(name, "t"), description.texts)
-        plain = {variable: {"_FillValue": None} for variable in dataset.variables}
-        dataset.to_netcdf(path, mode="a", group=name, engine="h5netcdf", encoding=plain)
+    for package in NEEDS:
+        extra(package)
+    import xarray
+
+    with hdf5.writing(description, path):
+        xarray.Dataset(attrs=description.texts).to_netcdf(path, engine="h5netcdf")
+        for name, table in description.tables.items():
+            dataset = _dataset(table, DIMENSIONS.get(name, "t"), description.texts)
+            plain = {variable: {"_FillValue": None} for variable in dataset.variables}
+            dataset.to_netcdf(path, mode="a", group=name, engine="h5netcdf", encoding=plain)

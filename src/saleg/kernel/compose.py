@@ -27,14 +27,14 @@ from saleg.errors import LawError
 from saleg.kernel import jit
 from saleg.kernel.cache import locked, usable_folder, write_atomically
 from saleg.kernel.source import Borrowed, NoSource, check_law, fingerprint
-from saleg.laws import CFRIgnition, InstantExchange, Law, Wiebe
+from saleg.laws import CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 
 if TYPE_CHECKING:
     from saleg.engine import Chamber, Engine
 
 PACKAGE = Path(__file__).resolve().parent.parent
-BEFORE_SLOTS = ("laws/arguments.py", "kernel/layout.py")
+BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py")
 INTEGRATOR = ("rhs", "step", "events", "peaks", "switch", "observe", "integrate")
 
 #: What fills the combustion slots of a bounce chamber; never called, since it never lights.
@@ -42,7 +42,11 @@ IDLE_LAWS: dict[str, Law] = {
     "heat_release": Wiebe(),
     "ignition": CFRIgnition(),
     "gas_exchange": InstantExchange(),
+    "misfires": NoMisfires(),
 }
+
+#: Lengths of the series of numbers a law has, by name.
+Lengths = tuple[tuple[str, int], ...]
 
 _numbers = itertools.count()
 
@@ -105,6 +109,12 @@ def laws_of(engine: Engine) -> dict[str, dict[str, Law]]:
     }
 
 
+def needs_motored_pressure(engine: Engine) -> bool:
+    """Whether a law of the engine looks at the motored pressure."""
+    laws = (slots_of(chamber)["heat_transfer"] for chamber in engine.chambers)
+    return any(law.needs_motored_pressure for law in laws)  # type: ignore[attr-defined]
+
+
 def check_laws(engine: Engine) -> None:
     """Refuse laws that cannot become part of a kernel, before any of them is called.
 
@@ -124,41 +134,73 @@ def kernel_for(engine: Engine, modules: tuple[str, ...] = INTEGRATOR) -> Kernel:
     Composed once per choice of laws, and anew when a law, or a helper or constant it uses, has
     been changed in this process, as in a notebook.
     """
-    laws = laws_of(engine)
-    classes = tuple(type(law) for place in laws.values() for law in place.values())
-    return _load(classes, modules, tuple(fingerprint(law) for law in dict.fromkeys(classes)))
+    laws = [law for place in laws_of(engine).values() for law in place.values()]
+    classes = tuple(type(law) for law in laws)
+    state = tuple(fingerprint(law) for law in dict.fromkeys(classes) if not _is_ours(law))
+    return _load(classes, modules, tuple(_lengths(law) for law in laws), state)
+
+
+def _is_ours(law: type[Law]) -> bool:
+    """Whether a law is one of the library's, which do not change while it is imported."""
+    return law.__module__.startswith("saleg.laws.")
 
 
 def parameters(engine: Engine) -> np.ndarray:
     """All numbers of an engine's laws as an array of one record."""
     laws = laws_of(engine)
-    places = [(side, [(name, _record(law)) for name, law in laws[side].items()]) for side in laws]
+    places = [(side, [(name, record_of(law)) for name, law in laws[side].items()]) for side in laws]
     dtype = np.dtype([*places[:2], *places[2][1]])
-    values = [tuple(_values(law) for law in laws[side].values()) for side in ("left", "right")]
-    rest = [_values(law) for law in laws["engine"].values()]
+    values = [tuple(values_of(law) for law in laws[side].values()) for side in ("left", "right")]
+    rest = [values_of(law) for law in laws["engine"].values()]
     return np.array([(*values, *rest)], dtype=dtype)
 
 
-def _record(law: Law) -> np.dtype:
-    names = [item.name for item in dataclasses.fields(law)]  # type: ignore[arg-type]
-    return np.dtype([(name, np.float64) for name in names or ["nothing"]])
+@lru_cache(maxsize=256)
+def _names(law: type[Law]) -> tuple[str, ...]:
+    return tuple(item.name for item in dataclasses.fields(law))  # type: ignore[arg-type]
 
 
-def _values(law: Law) -> tuple[float, ...]:
-    items = dataclasses.fields(law)  # type: ignore[arg-type]
-    return tuple(float(getattr(law, item.name)) for item in items) or (0.0,)
+def record_of(law: Law) -> np.dtype:
+    """Record that holds the numbers of a law; a series of numbers is an array in it."""
+    return _record(type(law), _lengths(law))
+
+
+@lru_cache(maxsize=256)
+def _record(law: type[Law], lengths: Lengths) -> np.dtype:
+    long = dict(lengths)
+    items = [
+        (name, np.float64, (long[name],)) if name in long else (name, np.float64)
+        for name in _names(law)
+    ]
+    return np.dtype(items or [("nothing", np.float64)])
+
+
+def values_of(law: Law) -> tuple[Any, ...]:
+    """Numbers of a law in the order of its record."""
+    return tuple(getattr(law, name) for name in _names(type(law))) or (0.0,)
+
+
+def _lengths(law: Law) -> Lengths:
+    """How many numbers there are in each series of a law."""
+    items = ((name, getattr(law, name)) for name in _names(type(law)))
+    return tuple((name, len(value)) for name, value in items if isinstance(value, (tuple, list)))
 
 
 @lru_cache(maxsize=128)
 def _load(
-    classes: tuple[type[Law], ...], modules: tuple[str, ...], state: tuple[object, ...]
+    classes: tuple[type[Law], ...],
+    modules: tuple[str, ...],
+    lengths: tuple[Lengths, ...],
+    state: tuple[object, ...],
 ) -> Kernel:
     """Compose, keep and import the kernel for a choice of law classes in a certain state."""
-    left, right, engine = classes[:5], classes[5:10], classes[10:]
+    n = len(CHAMBER_SLOTS)
+    left, right, engine = classes[:n], classes[n : 2 * n], classes[2 * n :]
     try:
         text = compose(left, right, engine, modules)
     except NoSource:
         return _load_from_memory(left, right, engine, modules)
+    text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     folder = usable_folder()
     if folder is None:
         return Kernel(_execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None)
@@ -179,11 +221,12 @@ def compose(
     parts = ["import math", "import numba", "import numpy as np", ""]
     parts += [jit.COMPILED_HEADER + jit.CACHED_ON_DISK]
     parts += [_own_text(name) for name in BEFORE_SLOTS]
+    eases = "rhs" in modules
     for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
-        parts += _chamber_slot(name, base, left[index], right[index], injected)
+        parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
     for (name, base), law in zip(ENGINE_SLOTS.items(), engine, strict=True):
         for method in base.compiled:
-            parts += _methods(law, method, f"engine_{name}", base, injected)
+            parts += methods_text(law, method, f"engine_{name}", base, injected)
             arguments = ", ".join(_arguments(base, method))
             parts.append(
                 f"@inline\ndef {name}_{method}(P, {arguments}):\n"
@@ -199,32 +242,55 @@ def _chamber_slot(
     left: type[Law],
     right: type[Law],
     injected: dict[str, Any] | None,
+    eases: bool,
 ) -> list[str]:
     """Functions of one chamber slot; one set serves both sides where their laws are alike."""
     parts = []
     both = left is right
+    names = ("both", "both") if both else ("left", "right")
     for method in base.compiled:
-        arguments = ", ".join(_arguments(base, method))
-        names = ("both", "both") if both else ("left", "right")
+        easy = eases and method in base.at_every_step
         for place, law in (("both", left),) if both else (("left", left), ("right", right)):
-            parts += _methods(law, method, f"{place}_{name}", base, injected)
-        parts.append(
-            f"@inline\ndef {name}_{method}(P, side, {arguments}):\n"
-            f"    if side == 0:\n"
-            f"        return {names[0]}_{name}_{method}(P.left.{name}, {arguments})\n"
-            f"    return {names[1]}_{name}_{method}(P.right.{name}, {arguments})\n"
-        )
+            parts += methods_text(law, method, f"{place}_{name}", base, injected, easy)
+        arguments = ", ".join(_arguments(base, method))
+        if easy:
+            parts.append(_by_side(f"{name}_{method}", name, f"{arguments}, aid", names))
+            parts.append(_by_side(f"{name}_{method}_constants", name, arguments, names))
+        else:
+            parts.append(_by_side(f"{name}_{method}", name, arguments, names))
     return parts
 
 
-def _methods(
+def _by_side(function: str, slot: str, arguments: str, names: tuple[str, str]) -> str:
+    """Text of a function that calls the law of the side it is asked for."""
+    return (
+        f"@inline\ndef {function}(P, side, {arguments}):\n"
+        f"    if side == 0:\n"
+        f"        return {names[0]}_{function}(P.left.{slot}, {arguments})\n"
+        f"    return {names[1]}_{function}(P.right.{slot}, {arguments})\n"
+    )
+
+
+#: What stands for the eased form of a method without source.
+NOT_EASED = """\
+@inline
+def {name}(self, gas, charge, aid):
+    return {name}__plain(self, gas, charge)
+@inline
+def {name}_constants(self, gas, charge):
+    return 0.0, 0.0, 0.0
+"""
+
+
+def methods_text(
     law: type[Law],
     method: str,
     prefix: str,
     base: type[Law],
-    injected: dict[str, Any] | None,
+    injected: dict[str, Any] | None = None,
+    eases: bool = False,
 ) -> list[str]:
-    """Definitions needed for one method of a law."""
+    """Definitions needed for one method of a law, as a function ``{prefix}_{method}``."""
     function = getattr(law, method)
     owner = f"{law.__name__}.{method}"
     given = list(inspect.signature(function).parameters)[1:]
@@ -232,13 +298,14 @@ def _methods(
     if len(given) != len(wanted):
         raise LawError(f"{owner} must take ({', '.join(['self', *wanted])})")
     borrowed = Borrowed(f"{prefix}_{method}__", owner)
+    add = borrowed.add_eased_method if eases else borrowed.add_method
     try:
-        borrowed.add_method(law, function, f"{prefix}_{method}")
+        add(law, function, f"{prefix}_{method}")
     except NoSource:
         if injected is None:
             raise
-        injected[f"{prefix}_{method}"] = _jitted(function)
-        return []
+        injected[f"{prefix}_{method}{'__plain' if eases else ''}"] = _jitted(function)
+        return [NOT_EASED.format(name=f"{prefix}_{method}")] if eases else []
     return borrowed.definitions
 
 

@@ -18,16 +18,16 @@ from saleg.kernel.layout import (
     V,
 )
 from saleg.kernel.peaks import watch_point
-from saleg.kernel.rhs import chamber_rates, rates_of_motion
+from saleg.kernel.rhs import chamber_rates, rates_of_motion, refresh
 from saleg.kernel.switch import switch
 
 
 @compiled
-def lagging_rhs(P, E, C, t, y, dy, delay, late_force):
+def lagging_rhs(P, E, C, t, y, dy, delay, late_force, motored):
     """Rates with a late gas force, or that of now if nothing lags; returns the one of now."""
     force = 0.0
     for side in range(2):
-        force += C[side].sign * C[side].area * chamber_rates(P, E, C, side, t, y, dy, 0)
+        force += C[side].sign * C[side].area * chamber_rates(P, E, C, side, t, y, dy, motored)
     rates_of_motion(P, E, t, y, dy, late_force if delay > 0 else force)
     return force
 
@@ -41,19 +41,20 @@ def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled,
     P, E, O = P1[0], E1[0], O1[0]
     k0, k1, y_new = work
     size = forces.shape[0]
+    refresh(P, E, C)
     while E.t < O.t_end:
         if strokes.shape[0] - filled[0] < 1 or events.shape[0] - filled[1] < 12:
             return BUFFER_FULL
         now = int(E.grid) % size
         late = forces[(now - delay) % size]
-        forces[now] = lagging_rhs(P, E, C, E.t, y, k0, delay, late)
+        forces[now] = lagging_rhs(P, E, C, E.t, y, k0, delay, late, O.motored)
         if delay == 0:
             late = forces[now]
         for n in range(N_ALL):
             y_new[n] = y[n] + O.step * k0[n]
         if not is_sound(C, y_new):
             return STEP_FAILURE
-        lagging_rhs(P, E, C, E.t + O.step, y_new, k1, delay, late)
+        lagging_rhs(P, E, C, E.t + O.step, y_new, k1, delay, late, O.motored)
         for n in range(N_ALL):
             y[n] += 0.5 * O.step * (k0[n] + k1[n])
         if not is_sound(C, y):

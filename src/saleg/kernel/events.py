@@ -1,12 +1,13 @@
 """Events of a step: which are crossed, and exactly where."""
 
-from math import exp, inf, isfinite, log
+from math import exp, inf, isfinite, log, log1p, sqrt
 
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     BURNING,
     CLOSED,
     DEAD_CENTRE,
+    DISARMED,
     G0,
     HEAD,
     IGNITION,
@@ -14,11 +15,12 @@ from saleg.kernel.layout import (
     N_ALL,
     N_EVENTS,
     OPEN,
+    PORT,
     THETA,
     V,
     X,
 )
-from saleg.kernel.rhs import height_of
+from saleg.kernel.rhs import height_of, rhs
 from saleg.kernel.step import take_step
 
 
@@ -36,7 +38,7 @@ def event_is_possible(E, C, event):
     if event < LIGHT:
         return outward < 0.0 if c.mode == OPEN else outward > 0.0
     if event < HEAD:
-        return c.mode == CLOSED and c.armed == 1
+        return c.mode == CLOSED and c.armed > DISARMED
     return outward < 0.0 and c.mode != OPEN
 
 
@@ -90,21 +92,47 @@ def cubic(g0, r0, g1, r1, h, s):
 
 
 @inline
+def cubic_rate(g0, r0, g1, r1, h, s):
+    """Derivative of :func:`cubic`."""
+    u = s / h
+    w = 1.0 - u
+    return 6.0 * u * w * (g1 - g0) / h + w * (w - 2.0 * u) * r0 + u * (u - 2.0 * w) * r1
+
+
+@inline
 def cubic_root(g0, r0, g1, r1, h):
-    """Where the cubic changes sign between 0 and `h`."""
+    """Where the cubic changes sign from g0 < 0 to g1 > 0: Newton's method within a bracket."""
     low, high = 0.0, h
-    for _ in range(30):
-        middle = 0.5 * (low + high)
-        if cubic(g0, r0, g1, r1, h, middle) > 0.0:
-            high = middle
+    s = h * g0 / (g0 - g1)
+    for _ in range(40):
+        value = cubic(g0, r0, g1, r1, h, s)
+        if value > 0.0:
+            high = s
         else:
-            low = middle
-    return high
+            low = s
+        newton = s - value / cubic_rate(g0, r0, g1, r1, h, s)
+        s_next = newton if low < newton < high else 0.5 * (low + high)
+        if abs(s_next - s) <= 1e-9 * h:
+            return s_next
+        s = s_next
+    return s
+
+
+@inline
+def guessed_time(E, C, event, h, y, y_new, dy, dy_new):
+    """Time within a step at which an event that was crossed is expected, by interpolation."""
+    g0, r0 = event_value(E, C, event, y), event_rate(E, C, event, y, dy)
+    g1, r1 = event_value(E, C, event, y_new), event_rate(E, C, event, y_new, dy_new)
+    if g0 >= 0.0 or h <= 0.0:
+        return 0.0
+    if LIGHT <= event < HEAD and g0 > -0.9:  # the integral grows about exponentially
+        g0, r0, g1, r1 = log1p(g0), r0 / (1.0 + g0), log1p(g1), r1 / (1.0 + g1)
+    return cubic_root(g0, r0, g1, r1, h)
 
 
 @compiled
 def first_event(E, C, stages, h, y, y_new, k, landed):
-    """Event crossed first between `y` and `y_new` by interpolation, or -1.
+    """Event crossed first between `y` and `y_new`, or -1, and when, both by interpolation.
 
     `landed` is the event the step already ends at; it is not looked at again.
     """
@@ -112,51 +140,102 @@ def first_event(E, C, stages, h, y, y_new, k, landed):
     for event in range(N_EVENTS):
         if event == landed or not event_is_possible(E, C, event):
             continue
-        after = event_value(E, C, event, y_new)
-        if not after > 0.0:
+        if not event_value(E, C, event, y_new) > 0.0:
             continue
-        before = event_value(E, C, event, y)
-        guess = 0.0
-        if before < 0.0 and h > 0.0:
-            r0 = event_rate(E, C, event, y, k[0])
-            r1 = event_rate(E, C, event, y_new, k[stages])
-            guess = cubic_root(before, r0, after, r1, h)
+        guess = guessed_time(E, C, event, h, y, y_new, k[0], k[stages])
         if guess < earliest:
             first, earliest = event, guess
-    return first
+    return first, earliest
+
+
+@inline
+def nearness(O):
+    """Part of a step over which a state may be carried to its event without another step."""
+    return min(sqrt(O.tolerance), 5e-3) if O.adaptive == 1 else 1e-8
 
 
 @compiled
-def locate(P, E, C, tableau, t, h, y, k, y_new, event, motored):
+def carry(P, E, C, O, stages, t, s, ds, y, k, y_new):
+    """Carry the end of a step of length `s` a little further, along the cubic through both ends."""
+    end = k[stages]
+    u, w = 1.0 + ds / s, -ds / s
+    for n in range(N_ALL):  # as an increment: what does not change stays as it is to the last bit
+        back = (1.0 + 2.0 * u) * (y[n] - y_new[n]) + u * s * k[0, n]
+        y_new[n] += w * w * back - u * u * w * s * end[n]
+    if O.peaks > 1 or O.history > 0:  # somebody looks at the rates there
+        rhs(P, E, C, t + s + ds, y_new, end, O.motored)
+        E.evaluations += 1.0
+
+
+@compiled
+def locate(P, E, C, O, tableau, t, h, guess, y, k, y_new, event):
     """Shorten a step so that it ends on an event; returns its length.
 
     Newton's method on the length of the step itself, kept within a bracket: the state at the event
-    is that of one Runge-Kutta step to it, so the order of the method is kept.
+    is that of one Runge-Kutta step to it, so the order of the method is kept. The last small
+    correction is made along a cubic, whose error is then far below that of the step.
     """
     stages = tableau[1].shape[0]
     before = event_value(E, C, event, y)
     if before >= 0.0 and event_rate(E, C, event, y, k[0]) > 0.0:
-        take_step(P, E, C, tableau, t, 0.0, y, k, y_new, motored)
+        take_step(P, E, C, tableau, t, 0.0, y, k, y_new, O.motored)
         return 0.0
     low, high = 0.0, h
-    s = 0.5 * h
-    if before < 0.0:
-        after = event_value(E, C, event, y_new)
-        r0 = event_rate(E, C, event, y, k[0])
-        r1 = event_rate(E, C, event, y_new, k[stages])
-        s = cubic_root(before, r0, after, r1, h)
+    s = guess if before < 0.0 else 0.5 * h
     for _ in range(100):
-        take_step(P, E, C, tableau, t, s, y, k, y_new, motored)
+        take_step(P, E, C, tableau, t, s, y, k, y_new, O.motored)
         value = event_value(E, C, event, y_new)
         if value <= 0.0:
             low = s
         else:  # also where the step left the domain of the equations
             high = s
-        newton = s - value / event_rate(E, C, event, y_new, k[stages])
-        if abs(newton - s) <= 1e-13 * h or high - low <= 1e-15 * h:
+        ds = -value / event_rate(E, C, event, y_new, k[stages])
+        if abs(ds) <= nearness(O) * s and 0.0 < s + ds <= h:
+            if abs(ds) > 1e-15 * h:
+                carry(P, E, C, O, stages, t, s, ds, y, k, y_new)
+            return s + ds
+        if high - low <= 1e-15 * h:
             break
-        s = newton if low < newton < high else 0.5 * (low + high)
+        s = s + ds if low < s + ds < high else 0.5 * (low + high)
     return s
+
+
+@inline
+def expected_event(E, C, y, dy):
+    """Next dead centre or port and the time to it, extrapolated; -1 if it is far or imminent."""
+    first, earliest, least = -1, 2.0 * E.next_step, 1e-4 * E.next_step
+    v, a, jerk = y[V], dy[V], E.jerk
+    if E.direction * v > 0.0 > E.direction * a:
+        s = -v / a
+        s -= (v + s * (a + 0.5 * s * jerk)) / (a + s * jerk)
+        if least < s < earliest:
+            first, earliest = DEAD_CENTRE, s
+    for event in (PORT, PORT + 1):
+        if v == 0.0 or not event_is_possible(E, C, event):
+            continue
+        c = C[event - PORT]
+        way = c.sign * (c.port - c.half_stroke) - y[X]
+        s = way / v
+        for _ in range(2):
+            rest = s * (v + s * (0.5 * a + s * jerk / 6.0)) - way
+            s -= rest / (v + s * (a + 0.5 * s * jerk))
+        if least < s < earliest:
+            first, earliest = event, s
+    return first, earliest
+
+
+@compiled
+def reached(P, E, C, O, stages, t, h, y, k, y_new, event):
+    """Carry the end of a step on to an event it was aimed at and only just missed, if it did.
+
+    Returns the length of the step, or -1.0 if the event is further away or has been passed.
+    """
+    value = event_value(E, C, event, y_new)
+    ds = -value / event_rate(E, C, event, y_new, k[stages])
+    if not 0.0 <= ds <= nearness(O) * h:
+        return -1.0
+    carry(P, E, C, O, stages, t, h, ds, y, k, y_new)
+    return h + ds
 
 
 @compiled

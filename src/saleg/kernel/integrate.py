@@ -4,9 +4,17 @@ One loop serves fixed steps on a grid and the adaptive pair. A step that crosses
 shortened to end on it; there modes change and the next step starts afresh.
 """
 
-from math import copysign
+from math import copysign, exp, log
 
-from saleg.kernel.events import first_event, is_sound, land, locate, next_time_event
+from saleg.kernel.events import (
+    expected_event,
+    first_event,
+    is_sound,
+    land,
+    locate,
+    next_time_event,
+    reached,
+)
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
     BUFFER_FULL,
@@ -24,9 +32,12 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.observe import observe
 from saleg.kernel.peaks import watch_point, watch_step
-from saleg.kernel.rhs import rhs
+from saleg.kernel.rhs import refresh, rhs
 from saleg.kernel.step import error_norm, take_step
 from saleg.kernel.switch import switch
+
+# Logarithm of the least error the controller remembers of a step.
+LEAST_LN_ERROR = -9.21
 
 
 @inline
@@ -45,10 +56,10 @@ def control_step(E, order, h, error, was_rejected):
     """Set the next step from the error of an accepted one (PI control, Hairer and Wanner)."""
     beta = 0.08
     exponent = 1.0 / order - 0.75 * beta
-    bounded = max(error, 1e-10)
-    factor = 0.9 * bounded**-exponent * E.last_error**beta
+    ln_error = log(max(error, 1e-10))
+    factor = 0.9 * exp(beta * E.ln_last_error - exponent * ln_error)
     factor = min(max(factor, 0.2), 1.0 if was_rejected else 6.0)
-    E.last_error = max(error, 1e-4)
+    E.ln_last_error = max(ln_error, LEAST_LN_ERROR)
     E.next_step = h * factor
 
 
@@ -56,11 +67,20 @@ def control_step(E, order, h, error, was_rejected):
 def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
     """Take one step the error control, or the fixed grid, is content with.
 
-    Returns its length and the time it ends at, exactly; a length of -1.0 if no step is small
-    enough.
+    Returns its length, the time it ends at, exactly, and the event it was aimed at, if it still
+    is; a length of -1.0 if no step is small enough.
     """
     t = E.t
-    end = proposed_end(E, O, t_event)
+    aim, t_aim = -1, t_event
+    if O.adaptive == 1:
+        aim, wait = expected_event(E, C, y, k[0])
+        if aim >= 0 and t + wait < t_event:
+            t_aim = t + wait
+        else:
+            aim = -1
+    end = proposed_end(E, O, t_aim)
+    if end < t_aim:
+        aim = -1
     h = end - t
     smallest = 4e-16 * max(t, E.length_scale / E.speed_scale)
     rejected = False
@@ -73,31 +93,35 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
             E.rejected += 1.0
             continue
         if O.adaptive == 0:
-            return h, t + h if rejected else end
+            return h, t + h if rejected else end, -1
         error = error_norm(E, tableau, h, y, y_new, k, O.tolerance)
         if error <= 1.0:
             wish = E.next_step
             control_step(E, order, h, error, rejected)
             if not rejected and h < wish:  # cut short by a known event: keep the wish at least
                 E.next_step = max(E.next_step, wish)
-            return h, t + h if rejected else end
+            return h, t + h if rejected else end, -1 if rejected else aim
         E.rejected += 1.0
         rejected = True
         h *= max(0.2, 0.9 * error ** (-1.0 / order))
         E.next_step = h
-    return -1.0, t
+    return -1.0, t, -1
 
 
 @compiled
-def advance_to_event(P, E, C, O, tableau, h, y, k, y_new):
-    """Shorten the step just taken to the first event in it; returns its length and the event."""
+def advance_to_event(P, E, C, O, tableau, h, aim, y, k, y_new):
+    """End the step just taken on the first event in it; returns its length and the event."""
     stages = tableau[1].shape[0]
     landed = -1
+    if aim >= 0:
+        length = reached(P, E, C, O, stages, E.t, h, y, k, y_new, aim)
+        if length > 0.0:
+            h, landed = length, aim
     for _ in range(16):
-        event = first_event(E, C, stages, h, y, y_new, k, landed)
+        event, guess = first_event(E, C, stages, h, y, y_new, k, landed)
         if event < 0:
             break
-        h = locate(P, E, C, tableau, E.t, h, y, k, y_new, event, O.motored)
+        h = locate(P, E, C, O, tableau, E.t, h, guess, y, k, y_new, event)
         landed = event
     if landed >= 0:
         land(C, landed, y_new)
@@ -122,6 +146,7 @@ def keep_snapshot(E1, C, y, snapshot):
 def accept(E, O, h, full, end, y, y_new, k, stages):
     """Make the end of a step the present state."""
     E.t = end if h == full else E.t + h
+    E.jerk = (k[stages, V] - k[0, V]) / h if h > 0.0 else 0.0
     if O.adaptive == 0 and E.t >= (E.grid + 1.0) * O.step:
         E.grid += 1.0
     for n in range(N_ALL):
@@ -169,6 +194,7 @@ def run_on(
     stages = tableau[1].shape[0]
     k, y_new, spare = work
     last_step = E.steps + O.max_steps
+    refresh(P, E, C)
     switch(P, E, C, O, y, -1, peaks, strokes, events, filled)  # what is due at the start
     rhs(P, E, C, E.t, y, k[0], O.motored)
     E.evaluations += 1.0
@@ -183,12 +209,12 @@ def run_on(
         if O.adaptive == 1 and E.steps - E.steps_at_dead_centre > MOST_STEPS:
             return TOO_MANY_STEPS
         t_event = next_time_event(C, O.t_end)
-        full, end = good_step(P, E, C, O, tableau, order, t_event, y, k, y_new)
+        full, end, aim = good_step(P, E, C, O, tableau, order, t_event, y, k, y_new)
         if full < 0.0:
             return STEP_FAILURE
         if E.direction == 0.0:
             E.direction = copysign(1.0, y_new[V]) if y_new[V] != 0.0 else 0.0
-        h, landed = advance_to_event(P, E, C, O, tableau, full, y, k, y_new)
+        h, landed = advance_to_event(P, E, C, O, tableau, full, aim, y, k, y_new)
         if O.peaks > 0:
             watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare)
         if O.dense > 0:

@@ -11,14 +11,22 @@ OPEN = 0
 CLOSED = 1
 BURNING = 2
 
+# Whether a charge may light: not before its ports open again, in compression, at any time as it
+# missed its dead centre, or not though it should.
+DISARMED = 0
+ARMED = 1
+LATE = 2
+FAILING = -1
+
 # State vector: position, velocity; per side theta = ln p + G0 ln(h/L) (smooth where p is steep),
-# ignition integral, and theta of the motored pressure.
+# ignition integral, and theta of the motored pressure; the current in the alternator.
 X = 0
 V = 1
 THETA = 2
 IGNITION = 4
 MOTORED = 6
-N_STATE = 8
+CURRENT = 8
+N_STATE = 9
 G0 = 1.33
 
 # Quadratures, integrated beside the state and reset at every dead centre.
@@ -85,6 +93,7 @@ ENGINE_RECORD = np.dtype(
             "mass",
             "length_scale",
             "speed_scale",
+            "current_scale",
             "maximum_stroke",
             "t",
             "direction",
@@ -97,7 +106,8 @@ ENGINE_RECORD = np.dtype(
             "last_fuel_energy",
             "last_speed_squared",
             "next_step",
-            "last_error",
+            "ln_last_error",
+            "jerk",
             "grid",
             "strokes",
             "steps_at_dead_centre",
@@ -127,6 +137,7 @@ CHAMBER_RECORD = np.dtype(
             "lower_heating_value",
             "air_fuel_ratio",
             "combustion_efficiency",
+            "late_ignition",
             "gas_constant",
             "mass",
             "fuel",
@@ -145,6 +156,22 @@ CHAMBER_RECORD = np.dtype(
             "exhaust_fuel_energy",
             "ignition_time",
             "ignition_height",
+            "charge_number",
+        )
+    ]
+    # What stays the same between two events, kept to save computing it at every step.
+    + [
+        (name, np.float64)
+        for name in (
+            "ln_volume",
+            "ln_mass_gas",
+            "per_mass_gas",
+            "heat_first",
+            "heat_second",
+            "heat_third",
+            "ignition_first",
+            "ignition_second",
+            "ignition_third",
         )
     ]
 )
@@ -226,6 +253,7 @@ HISTORY_RECORD = np.dtype(
             "alternator_force",
             "electrical_power",
             "load_weight",
+            "current",
         )
     ]
 )

@@ -3,14 +3,13 @@
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    CURRENT,
     ELECTRICAL_ENERGY,
     HEAT_LOST,
     HEAT_RELEASED,
     IGNITION,
-    MOTORED,
     N_STATE,
     OPEN,
-    THETA,
     V,
     X,
 )
@@ -26,14 +25,13 @@ def motored_pressure(E, C, side, y, motored):
     c = C[side]
     if c.mode == OPEN:
         return c.intake_pressure
-    theta = y[THETA + side]
-    return gas_of(E, C, side, y[X], theta, y[MOTORED + side] if motored else theta).p_motored
+    return gas_of(E, C, side, y, motored).p_motored
 
 
 @compiled
 def observe(P, E, C, y, dy, motored, row):
     """Fill a row of the history from the state `y` and its rates `dy`."""
-    motion = Motion(E.t, y[X], y[V], E.direction)
+    motion = Motion(E.t, y[X], y[V], E.direction, y[CURRENT])
     row.t, row.x, row.v, row.a = E.t, y[X], y[V], dy[V]
     for side in range(2):
         p, T = pressure_and_temperature(C, side, y)
@@ -51,3 +49,4 @@ def observe(P, E, C, y, dy, motored, row):
     row.alternator_force = alternator_force(P, E.load_weight, motion)
     row.electrical_power = dy[N_STATE + ELECTRICAL_ENERGY]
     row.load_weight = E.load_weight
+    row.current = y[CURRENT]

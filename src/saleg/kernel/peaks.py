@@ -50,28 +50,31 @@ def watched(C, peak, y, dy):
     return T if peak >= PEAK_TEMPERATURE else p
 
 
-@compiled
-def watched_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
-    """Time derivative of a watched quantity, relative for pressure and temperature.
-
-    Exact where the state gives it; for acceleration and pressure rise, whose derivative would need
-    that of every law, by a difference along the solution.
-    """
+@inline
+def known_rate(C, peak, y, dy):
+    """Time derivative of a watched quantity the state gives; relative for all but velocity."""
     if peak == PEAK_VELOCITY:
         return dy[V] if y[V] > 0.0 else -dy[V]
-    if peak < PEAK_PRESSURE_RISE:
-        side = peak % 2
-        if C[side].mode == OPEN:
-            return 0.0
-        rate = pressure_rate(C, side, y, dy)
-        if peak < PEAK_TEMPERATURE:
-            return rate
-        return rate + C[side].sign * y[V] / height_of(C, side, y[X])
+    side = peak % 2
+    if C[side].mode == OPEN:
+        return 0.0
+    rate = pressure_rate(C, side, y, dy)
+    if peak < PEAK_TEMPERATURE:
+        return rate
+    return rate + C[side].sign * y[V] / height_of(C, side, y[X])
+
+
+@compiled
+def found_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
+    """Time derivative of acceleration or pressure rise, by a difference along the solution.
+
+    An exact one would need the derivative of every law.
+    """
     dt = 1e-6 * E.length_scale / E.speed_scale
     for n in range(N_STATE):
         spare_y[n] = y[n] + dt * dy[n]
     rhs(P, E, C, t + dt, spare_y, spare_dy, motored)
-    E.evaluations += 1
+    E.evaluations += 1.0
     return (watched(C, peak, spare_y, spare_dy) - watched(C, peak, y, dy)) / dt
 
 
@@ -100,43 +103,70 @@ def is_costly(peak):
     return peak == PEAK_ACCELERATION or PEAK_PRESSURE_RISE <= peak < PEAK_VELOCITY
 
 
+@inline
+def is_passed(C, peak, y, dy, y_new, dy_new):
+    """Whether a quantity with a known rate rises at the begin of a step and falls at its end."""
+    return known_rate(C, peak, y, dy) > 0.0 and not known_rate(C, peak, y_new, dy_new) > 0.0
+
+
 @compiled
 def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
     """Take the peaks within a step from `y` to `y_new` into account.
 
-    Those of acceleration and pressure rise only if the options ask for all (`peaks` = 2): they
-    cost further evaluations. Maxima at events are left to :func:`watch_point`.
+    Only if the options ask for all (`peaks` = 2) are those of acceleration and pressure rise
+    located and the others approached by a further step: that costs evaluations. Maxima at events
+    are left to :func:`watch_point`.
     """
+    last = tableau[1].shape[0]
+    for peak in range(N_PEAKS):
+        if h <= 0.0:
+            return
+        if is_costly(peak):
+            if O.peaks > 1:
+                approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
+        elif is_passed(C, peak, y, k[0], y_new, k[last]):
+            if O.peaks > 1:
+                approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
+            else:
+                q0, q1 = watched(C, peak, y, k[0]), watched(C, peak, y_new, k[last])
+                r0, r1 = known_rate(C, peak, y, k[0]), known_rate(C, peak, y_new, k[last])
+                if peak < PEAK_VELOCITY:
+                    r0, r1 = r0 * q0, r1 * q1
+                top = cubic(q0, r0, q1, r1, h, top_of_cubic(q0, r0, q1, r1, h))
+                peaks[peak] = max(peaks[peak], q0, q1, top)
+
+
+@compiled
+def value_and_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
+    """A watched quantity and its time derivative."""
+    value = watched(C, peak, y, dy)
+    if is_costly(peak):
+        return value, found_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored)
+    rate = known_rate(C, peak, y, dy)
+    return value, rate if peak == PEAK_VELOCITY else rate * value
+
+
+@compiled
+def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
+    """Locate a peak within a step by a shorter step of the same method, and a cubic from there."""
     t, motored = E.t, O.motored
     last = tableau[1].shape[0]
     spare_y, spare_dy, spare_k, inner = spare
-    for peak in range(N_PEAKS):
-        if h <= 0.0 or (O.peaks < 2 and is_costly(peak)):
-            continue
-        r0 = watched_rate(P, E, C, peak, t, y, k[0], spare_y, spare_dy, motored)
-        if r0 <= 0.0:
-            continue
-        r1 = watched_rate(P, E, C, peak, t + h, y_new, k[last], spare_y, spare_dy, motored)
-        if r1 > 0.0:
-            continue
-        q0 = watched(C, peak, y, k[0])
-        q1 = watched(C, peak, y_new, k[last])
-        if O.peaks < 2 and max(q0, q1) < 0.5 * peaks[peak]:
-            continue
-        if peak < PEAK_PRESSURE_RISE:
-            r0, r1 = r0 * q0, r1 * q1
-        s = top_of_cubic(q0, r0, q1, r1, h)
-        for n in range(N_ALL):
-            spare_k[0, n] = k[0, n]
-        take_step(P, E, C, tableau, t, s, y, spare_k, inner, motored)
-        q = watched(C, peak, inner, spare_k[last])
-        r = watched_rate(P, E, C, peak, t + s, inner, spare_k[last], spare_y, spare_dy, motored)
-        if peak < PEAK_PRESSURE_RISE:
-            r *= q
-        peaks[peak] = max(peaks[peak], q0, q, q1)
-        if r > 0.0 and s < h:
-            rest = top_of_cubic(q, r, q1, r1, h - s)
-            peaks[peak] = max(peaks[peak], cubic(q, r, q1, r1, h - s, rest))
-        elif r < 0.0 and s > 0.0:
-            rest = top_of_cubic(q0, r0, q, r, s)
-            peaks[peak] = max(peaks[peak], cubic(q0, r0, q, r, s, rest))
+    q0, r0 = value_and_rate(P, E, C, peak, t, y, k[0], spare_y, spare_dy, motored)
+    if r0 <= 0.0:
+        return
+    q1, r1 = value_and_rate(P, E, C, peak, t + h, y_new, k[last], spare_y, spare_dy, motored)
+    if r1 > 0.0:
+        return
+    s = top_of_cubic(q0, r0, q1, r1, h)
+    for n in range(N_ALL):
+        spare_k[0, n] = k[0, n]
+    take_step(P, E, C, tableau, t, s, y, spare_k, inner, motored)
+    q, r = value_and_rate(P, E, C, peak, t + s, inner, spare_k[last], spare_y, spare_dy, motored)
+    peaks[peak] = max(peaks[peak], q0, q, q1)
+    if r > 0.0 and s < h:
+        rest = top_of_cubic(q, r, q1, r1, h - s)
+        peaks[peak] = max(peaks[peak], cubic(q, r, q1, r1, h - s, rest))
+    elif r < 0.0 and s > 0.0:
+        rest = top_of_cubic(q0, r0, q, r, s)
+        peaks[peak] = max(peaks[peak], cubic(q0, r0, q, r, s, rest))

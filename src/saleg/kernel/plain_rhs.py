@@ -13,6 +13,7 @@ from saleg.kernel.layout import (
     ALTERNATOR_WORK,
     BURNING,
     CLOSED,
+    DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
     FRICTION_WORK,
@@ -24,6 +25,7 @@ from saleg.kernel.layout import (
     SPEED_SQUARED,
 )
 from saleg.kernel.slots import (
+    alternator_current_rate,
     alternator_electrical_power,
     alternator_force,
     friction_force,
@@ -36,13 +38,15 @@ from saleg.kernel.slots import (
 from saleg.laws.arguments import Charge, Gas, Motion
 
 # Where each number stands: position [m], velocity [m/s]; per side pressure [Pa], ignition integral
-# [-] and motored pressure [Pa]; then the quadratures, in the order of the layout.
+# [-] and motored pressure [Pa]; the current in the alternator [A]; then the quadratures, in the
+# order of the layout.
 POSITION = 0
 VELOCITY = 1
 PRESSURE = 2
 INTEGRAL = 4
 MOTORED_PRESSURE = 6
-QUADRATURES = 8
+ALTERNATOR_CURRENT = 8
+QUADRATURES = 9
 
 
 @inline
@@ -62,6 +66,8 @@ def gas_in(E, C, side, y):
         E.mean_piston_speed,
         c.wall_temperature,
         1.0 if c.mode == BURNING else 0.0,
+        c.sign * y[VELOCITY],
+        0.0,
     )
 
 
@@ -96,6 +102,26 @@ def without_combustion(gas):
         gas.mean_piston_speed,
         gas.wall_temperature,
         0.0,
+        gas.height_rate,
+        0.0,
+    )
+
+
+@inline
+def with_rate_of_pressure(gas, p_rate):
+    """The same gas with the rate of its pressure, as ignition laws are shown it."""
+    return Gas(
+        gas.p,
+        gas.T,
+        gas.V,
+        gas.p_motored,
+        gas.height,
+        gas.bore,
+        gas.mean_piston_speed,
+        gas.wall_temperature,
+        gas.burning,
+        gas.height_rate,
+        p_rate,
     )
 
 
@@ -133,8 +159,9 @@ def closed_chamber(P, E, C, side, t, y, dy):
     dy[PRESSURE + side] = pressure_rate(P, side, gas, volume_rate, released - lost)
     dy[QUADRATURES + HEAT_LOST + side] = lost
     dy[QUADRATURES + HEAT_RELEASED + side] = released
-    if C[side].armed == 1.0 and C[side].mode == CLOSED:
-        dy[INTEGRAL + side] = ignition_rate(P, side, gas, charge)
+    if C[side].armed > DISARMED and C[side].mode == CLOSED:
+        rising = with_rate_of_pressure(gas, dy[PRESSURE + side])
+        dy[INTEGRAL + side] = ignition_rate(P, side, rising, charge)
     if E.motored == 1.0:
         cold = without_combustion(gas)
         lost = heat_to_wall(P, side, cold, charge)
@@ -145,13 +172,14 @@ def closed_chamber(P, E, C, side, t, y, dy):
 def translator(P, E, C, t, y, dy):
     """Acceleration (Eq. 36) and the quadratures of alternator and friction."""
     x, v = y[POSITION], y[VELOCITY]
-    motion = Motion(t, x, v, E.direction)
+    motion = Motion(t, x, v, E.direction, y[ALTERNATOR_CURRENT])
     load = alternator_force(P, E.load_weight, motion)
     friction = friction_force(P, E.friction_held, motion)
     power = alternator_electrical_power(P, E.load_weight, motion)
     push = C[0].area * y[PRESSURE] - C[1].area * y[PRESSURE + 1]
     dy[POSITION] = v
     dy[VELOCITY] = (push + springs_force(P, motion) - load - friction) / E.mass
+    dy[ALTERNATOR_CURRENT] = alternator_current_rate(P, E.load_weight, motion)
     dy[QUADRATURES + ALTERNATOR_WORK] = load * v
     dy[QUADRATURES + ELECTRICAL_ENERGY] = power
     dy[QUADRATURES + ELECTRICAL_SQUARED] = power**2

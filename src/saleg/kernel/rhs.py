@@ -6,12 +6,15 @@ chambers' records (see :mod:`saleg.kernel.layout`), `side` 0 for left and 1 for 
 
 from math import exp, log, pi
 
+from saleg.kernel.aid import Aid
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     ALTERNATOR_IMPULSE,
     ALTERNATOR_WORK,
     BURNING,
     CLOSED,
+    CURRENT,
+    DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
     FRICTION_WORK,
@@ -30,13 +33,16 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.slots import (
+    alternator_current_rate,
     alternator_electrical_power,
     alternator_force,
     friction_force,
     gas_properties_gamma,
     heat_release_burn_rate,
     heat_transfer_coefficient,
+    heat_transfer_coefficient_constants,
     ignition_rate,
+    ignition_rate_constants,
     springs_force,
 )
 from saleg.laws.arguments import Charge, Gas, Motion
@@ -49,24 +55,58 @@ def height_of(C, side, x):
 
 
 @inline
-def gas_of(E, C, side, x, theta, theta_motored):
+def ln_height_of(C, side, x):
+    """Natural logarithm of the clearance over that at the midpoint."""
+    return log(height_of(C, side, x) / C[side].half_stroke)
+
+
+@inline
+def gas_at(E, C, side, x, v, ln_p, ln_p_motored):
     """What the laws are shown of the gas in a closed chamber."""
     c = C[side]
-    height = c.half_stroke + c.sign * x
-    shift = G0 * log(height / c.half_stroke)
-    p = exp(theta - shift)
+    p = exp(ln_p)
+    height = height_of(C, side, x)
     volume = c.area * height
     return Gas(
         p,
-        p * volume / (c.mass * c.gas_constant),
+        p * volume * c.per_mass_gas,
         volume,
-        exp(theta_motored - shift),
+        p if ln_p_motored == ln_p else exp(ln_p_motored),
         height,
         c.bore,
         E.mean_piston_speed,
         c.wall_temperature,
         1.0 if c.mode == BURNING else 0.0,
+        c.sign * v,
+        0.0,
     )
+
+
+@inline
+def gas_of(E, C, side, y, motored):
+    """The same from a state vector."""
+    shift = G0 * ln_height_of(C, side, y[X])
+    ln_p = y[THETA + side] - shift
+    ln_p_motored = y[MOTORED + side] - shift if motored else ln_p
+    return gas_at(E, C, side, y[X], y[V], ln_p, ln_p_motored)
+
+
+@inline
+def heat_aid(C, side, ln_height, ln_p):
+    """What helps to evaluate the heat-transfer law."""
+    c = C[side]
+    ln_V = ln_height + c.ln_volume
+    ln_T = ln_p + ln_V - c.ln_mass_gas
+    return Aid(ln_p, ln_T, ln_V, c.heat_first, c.heat_second, c.heat_third)
+
+
+@inline
+def ignition_aid(C, side, ln_height, ln_p):
+    """What helps to evaluate the ignition law."""
+    c = C[side]
+    ln_V = ln_height + c.ln_volume
+    ln_T = ln_p + ln_V - c.ln_mass_gas
+    return Aid(ln_p, ln_T, ln_V, c.ignition_first, c.ignition_second, c.ignition_third)
 
 
 @inline
@@ -87,12 +127,11 @@ def charge_of(E, C, side):
 
 
 @inline
-def heat_loss(P, C, side, gas, charge):
+def heat_loss(P, C, side, gas, charge, aid):
     """Heat flow to the wall [W], Eq. 50."""
     surface = 2.0 * C[side].area + pi * gas.bore * gas.height
-    return (
-        heat_transfer_coefficient(P, side, gas, charge) * surface * (gas.T - gas.wall_temperature)
-    )
+    coefficient = heat_transfer_coefficient(P, side, gas, charge, aid)
+    return coefficient * surface * (gas.T - gas.wall_temperature)
 
 
 @inline
@@ -127,32 +166,53 @@ def chamber_rates(P, E, C, side, t, y, dy, motored):
         dy[N_STATE + GAS_WORK + side] = c.intake_pressure * c.area * growth
         dy[N_STATE + PORT_WORK + side] = c.intake_pressure * c.area * growth
         return c.intake_pressure
-    theta = y[THETA + side]
-    gas = gas_of(E, C, side, y[X], theta, y[MOTORED + side] if motored else theta)
+    ln_height = ln_height_of(C, side, y[X])
+    ln_p = y[THETA + side] - G0 * ln_height
+    ln_p_motored = y[MOTORED + side] - G0 * ln_height if motored else ln_p
+    gas = gas_at(E, C, side, y[X], y[V], ln_p, ln_p_motored)
     charge = charge_of(E, C, side)
     released = heat_release(P, C, side, t)
-    lost = heat_loss(P, C, side, gas, charge)
+    lost = heat_loss(P, C, side, gas, charge, heat_aid(C, side, ln_height, ln_p))
     dy[THETA + side] = theta_rate(P, side, gas, growth, released - lost)
     dy[N_STATE + HEAT_RELEASED + side] = released
     dy[N_STATE + HEAT_LOST + side] = lost
     dy[N_STATE + GAS_WORK + side] = gas.p * c.area * growth
     dy[N_STATE + PORT_WORK + side] = 0.0
-    if c.armed and c.mode == CLOSED:
-        dy[IGNITION + side] = ignition_rate(P, side, gas, charge)
+    if c.armed > DISARMED and c.mode == CLOSED:
+        rising = with_pressure_rate(gas, dy[THETA + side] - G0 * growth / gas.height)
+        aid = ignition_aid(C, side, ln_height, ln_p)
+        dy[IGNITION + side] = ignition_rate(P, side, rising, charge, aid)
     if motored:
         cold = motored_gas(C, side, gas)
-        lost = heat_loss(P, C, side, cold, charge)
+        lost = heat_loss(P, C, side, cold, charge, heat_aid(C, side, ln_height, ln_p_motored))
         dy[MOTORED + side] = theta_rate(P, side, cold, growth, -lost)
     return gas.p
 
 
 @inline
+def with_pressure_rate(gas, relative_rate):
+    """The same gas with the rate of its pressure, given relative to the pressure [1/s]."""
+    return Gas(
+        gas.p,
+        gas.T,
+        gas.V,
+        gas.p_motored,
+        gas.height,
+        gas.bore,
+        gas.mean_piston_speed,
+        gas.wall_temperature,
+        gas.burning,
+        gas.height_rate,
+        gas.p * relative_rate,
+    )
+
+
+@inline
 def motored_gas(C, side, gas):
     """The same charge at its motored pressure."""
-    c = C[side]
     return Gas(
         gas.p_motored,
-        gas.p_motored * gas.V / (c.mass * c.gas_constant),
+        gas.p_motored * gas.V * C[side].per_mass_gas,
         gas.V,
         gas.p_motored,
         gas.height,
@@ -160,18 +220,21 @@ def motored_gas(C, side, gas):
         gas.mean_piston_speed,
         gas.wall_temperature,
         0.0,
+        gas.height_rate,
+        0.0,
     )
 
 
 @inline
 def rates_of_motion(P, E, t, y, dy, gas_force):
     """Newton's law (Eq. 36) and the quadratures of the translator."""
-    motion = Motion(t, y[X], y[V], E.direction)
+    motion = Motion(t, y[X], y[V], E.direction, y[CURRENT])
     generator = alternator_force(P, E.load_weight, motion)
     friction = friction_force(P, E.friction_held, motion)
     power = alternator_electrical_power(P, E.load_weight, motion)
     dy[X] = y[V]
     dy[V] = (gas_force + springs_force(P, motion) - generator - friction) / E.mass
+    dy[CURRENT] = alternator_current_rate(P, E.load_weight, motion)
     dy[N_STATE + ALTERNATOR_WORK] = generator * y[V]
     dy[N_STATE + ELECTRICAL_ENERGY] = power
     dy[N_STATE + ELECTRICAL_SQUARED] = power * power
@@ -188,3 +251,21 @@ def rhs(P, E, C, t, y, dy, motored):
         pressure = chamber_rates(P, E, C, side, t, y, dy, motored)
         gas_force += C[side].sign * C[side].area * pressure
     rates_of_motion(P, E, t, y, dy, gas_force)
+
+
+@compiled
+def refresh(P, E, C):
+    """Compute what stays the same until the next event."""
+    for side in range(2):
+        c = C[side]
+        if c.mode == OPEN:
+            continue
+        c.ln_volume = log(c.area * c.half_stroke)
+        c.ln_mass_gas = log(c.mass * c.gas_constant)
+        c.per_mass_gas = 1.0 / (c.mass * c.gas_constant)
+        gas = gas_at(E, C, side, 0.0, 0.0, 0.0, 0.0)  # of which only what stays the same is used
+        charge = charge_of(E, C, side)
+        heat = heat_transfer_coefficient_constants(P, side, gas, charge)
+        c.heat_first, c.heat_second, c.heat_third = heat
+        ignition = ignition_rate_constants(P, side, gas, charge)
+        c.ignition_first, c.ignition_second, c.ignition_third = ignition

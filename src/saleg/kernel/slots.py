@@ -6,6 +6,7 @@ numbers; the names and arguments are the same.
 
 from typing import Any
 
+from saleg.kernel.aid import Aid
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
 
 
@@ -23,9 +24,18 @@ def gas_properties_internal_energy(P: Any, side: int, T: float) -> float:
     return _chamber(P, side).gas_properties.internal_energy(T)
 
 
-def heat_transfer_coefficient(P: Any, side: int, gas: Gas, charge: Charge) -> float:
+def heat_transfer_coefficient(
+    P: Any, side: int, gas: Gas, charge: Charge, aid: Aid | None = None
+) -> float:
     """Heat-transfer coefficient."""
     return _chamber(P, side).heat_transfer.coefficient(gas, charge)
+
+
+def heat_transfer_coefficient_constants(
+    P: Any, side: int, gas: Gas, charge: Charge
+) -> tuple[float, float, float]:
+    """Constants an eased law keeps; the plain one needs none."""
+    return 0.0, 0.0, 0.0
 
 
 def heat_release_duration(P: Any, side: int, gas: Gas, charge: Charge) -> float:
@@ -43,9 +53,26 @@ def heat_release_burnt_fraction(P: Any, side: int, u: float) -> float:
     return _chamber(P, side).heat_release.burnt_fraction(u)
 
 
-def ignition_rate(P: Any, side: int, gas: Gas, charge: Charge) -> float:
+def ignition_rate(P: Any, side: int, gas: Gas, charge: Charge, aid: Aid | None = None) -> float:
     """Rate of the ignition integral."""
     return _chamber(P, side).ignition.rate(gas, charge)
+
+
+def ignition_rate_constants(
+    P: Any, side: int, gas: Gas, charge: Charge
+) -> tuple[float, float, float]:
+    """Constants an eased law keeps; the plain one needs none."""
+    return 0.0, 0.0, 0.0
+
+
+def ignition_lights_at_dead_centre(P: Any, side: int, charge: Charge) -> float:
+    """Whether the law lights a charge at dead centre."""
+    return _chamber(P, side).ignition.lights_at_dead_centre(charge)
+
+
+def misfires_happens(P: Any, side: int, charge_number: float) -> float:
+    """Whether a charge fails to light."""
+    return _chamber(P, side).misfires.happens(charge_number)
 
 
 def gas_exchange_charge(
@@ -91,6 +118,11 @@ def alternator_at_dead_centre(P: Any, held: float, stroke: Stroke) -> float:
 def alternator_force(P: Any, held: float, motion: Motion) -> float:
     """Alternator force."""
     return P.alternator.force(held, motion)
+
+
+def alternator_current_rate(P: Any, held: float, motion: Motion) -> float:
+    """Rate of the alternator's current."""
+    return P.alternator.current_rate(held, motion)
 
 
 def alternator_electrical_power(P: Any, held: float, motion: Motion) -> float:

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from saleg.errors import LawError
+from saleg.kernel.powers import eased
 from saleg.laws.base import GasProperties, Law
 
 ALLOWED_BUILTINS = frozenset(
@@ -51,7 +52,7 @@ def check_law(law: type[Law]) -> None:
     bases = [base for base in law.__mro__ if base.__module__ == GasProperties.__module__]
     for name in law.compiled:
         method = getattr(law, name)
-        if any(vars(base).get(name) is method for base in bases):
+        if name not in law.optional and any(vars(base).get(name) is method for base in bases):
             raise LawError(f"{law.__name__}.{name} is missing: a {law.slot} law has that method")
         plain = (inspect.Parameter.POSITIONAL_OR_KEYWORD,)
         for parameter in inspect.signature(method).parameters.values():
@@ -97,14 +98,28 @@ class Borrowed:
         self.owner = owner
         self.definitions: list[str] = []
         self._carried: dict[object, str] = {}
+        self._numbers: dict[str, float] = {}
 
     def add_method(self, law: type[Law], method: Callable[..., Any], name: str) -> None:
         """Add a method of a law as a function `name` whose first argument is the law's record."""
         tree = _parse(method)
         _check_self(law, tree, self.owner)
-        self._emit(tree, method, name)
+        self._emit(self._prepared(tree, method, name))
 
-    def _emit(self, tree: ast.FunctionDef, function: Callable[..., Any], name: str) -> None:
+    def add_eased_method(self, law: type[Law], method: Callable[..., Any], name: str) -> None:
+        """Add a method with its formula eased, and the function of its constants."""
+        tree = _parse(method)
+        _check_self(law, tree, self.owner)
+        for part in eased(self._prepared(tree, method, name), self._numbers):
+            self._emit(part)
+
+    def _emit(self, tree: ast.FunctionDef) -> None:
+        self.definitions.append("@inline\n" + ast.unparse(tree))
+
+    def _prepared(
+        self, tree: ast.FunctionDef, function: Callable[..., Any], name: str
+    ) -> ast.FunctionDef:
+        """A function under another name, with all it uses carried along."""
         renames = {
             used: self._resolve(used, value)
             for used, value in _globals_used(tree, function, self.owner).items()
@@ -115,9 +130,8 @@ class Borrowed:
         tree.decorator_list = []
         for argument in (*tree.args.posonlyargs, *tree.args.args, *tree.args.kwonlyargs):
             argument.annotation = None
-        tree = _Unannotated().visit(tree)
-        ast.fix_missing_locations(tree)
-        self.definitions.append("@inline\n" + ast.unparse(tree))
+        plain: ast.FunctionDef = _Unannotated().visit(tree)
+        return ast.fix_missing_locations(plain)
 
     def _resolve(self, name: str, value: Any) -> ast.expr:
         """Expression that stands for a global the method uses."""
@@ -128,7 +142,7 @@ class Borrowed:
         if isinstance(value, types.FunctionType):
             if value not in self._carried:
                 self._carried[value] = self._new_name(value.__name__)
-                self._emit(_parse(value), value, self._carried[value])
+                self._emit(self._prepared(_parse(value), value, self._carried[value]))
             return ast.Name(self._carried[value], ast.Load())
         literal = _literal(value)
         if literal is None:
@@ -139,6 +153,8 @@ class Borrowed:
         # By name and value: constants of one name from two modules must not mix.
         if (name, literal) not in self._carried:
             self._carried[name, literal] = self._new_name(name)
+            if isinstance(value, numbers.Real):
+                self._numbers[self._carried[name, literal]] = float(value)
             self.definitions.append(f"{self._carried[name, literal]} = {literal}")
         return ast.Name(self._carried[name, literal], ast.Load())
 

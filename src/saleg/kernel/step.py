@@ -3,7 +3,7 @@
 from math import inf, isfinite
 
 from saleg.kernel.jit import compiled
-from saleg.kernel.layout import IGNITION, MOTORED, N_ALL, N_STATE, THETA, V, X
+from saleg.kernel.layout import CURRENT, IGNITION, MOTORED, N_ALL, N_STATE, THETA, V, X
 from saleg.kernel.rhs import rhs
 
 
@@ -55,8 +55,10 @@ def error_norm(E, tableau, h, y, y_new, k, tolerance):
             scale = E.length_scale
         elif n == V:
             scale = E.speed_scale
-        elif THETA <= n < IGNITION or n >= MOTORED:
+        elif THETA <= n < IGNITION or MOTORED <= n < CURRENT:
             scale = 1.0
+        elif n == CURRENT:
+            scale = E.current_scale
         else:
             scale = max(1.0, abs(y[n]), abs(y_new[n]))
         error = abs(h * error) / (scale * tolerance)

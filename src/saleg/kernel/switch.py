@@ -7,9 +7,11 @@ from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     ALTERNATOR_IMPULSE,
     ALTERNATOR_WORK,
+    ARMED,
     BURNING,
     CLOSED,
     DEAD_CENTRE,
+    DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
     EVENT_DEAD_CENTRE,
@@ -19,6 +21,7 @@ from saleg.kernel.layout import (
     EVENT_MISFIRE,
     EVENT_PORT_CLOSING,
     EVENT_PORT_OPENING,
+    FAILING,
     FRICTION_WORK,
     G0,
     GAS_WORK,
@@ -26,6 +29,7 @@ from saleg.kernel.layout import (
     HEAT_LOST,
     HEAT_RELEASED,
     IGNITION,
+    LATE,
     LEFT,
     MOTORED,
     N_ALL,
@@ -44,14 +48,17 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import charge_of, gas_of, height_of
+from saleg.kernel.rhs import charge_of, gas_of, height_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
     friction_at_dead_centre,
     gas_exchange_charge,
+    gas_properties_gamma,
     gas_properties_internal_energy,
     heat_release_burnt_fraction,
     heat_release_duration,
+    ignition_lights_at_dead_centre,
+    misfires_happens,
     springs_energy,
 )
 from saleg.laws.arguments import Motion, Stroke
@@ -78,7 +85,7 @@ def record_event(E, C, O, y, kind, side, events, filled):
 def burnt_mass(P, C, side, t):
     """Fuel burnt since the start of combustion [kg]."""
     c = C[side]
-    u = min(max((t - c.t_ignition) / c.duration, 0.0), 1.0)
+    u = min(max((t - c.t_ignition) / c.duration, 0.0), 1.0) if c.duration > 0.0 else 1.0
     return c.fuel_to_burn * heat_release_burnt_fraction(P, side, u)
 
 
@@ -96,16 +103,35 @@ def internal_energy(P, C, side, y):
 def ignite(P, E, C, side, y, motored):
     """Start of combustion: the charge burns as far as fuel and air allow (Eq. 53)."""
     c = C[side]
-    theta = y[THETA + side]
-    gas = gas_of(E, C, side, y[X], theta, y[MOTORED + side] if motored else theta)
+    gas = gas_of(E, C, side, y, motored)
     c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side))
     c.mode = BURNING
-    c.armed = 0
+    c.armed = DISARMED
     c.t_ignition = E.t
     c.t_end = E.t + c.duration
     c.fuel_to_burn = c.combustion_efficiency * min(c.fuel, c.air / c.air_fuel_ratio)
     c.ignition_time = E.t
     c.ignition_height = gas.height
+    if c.duration <= 0.0:
+        burn_at_once(P, C, side, y, gas.T)
+        end_combustion(P, E, C, side)
+
+
+@compiled
+def burn_at_once(P, C, side, y, T):
+    """Release all heat at constant volume: internal energy and temperature (by Newton) jump."""
+    c = C[side]
+    heat = c.fuel_to_burn * c.lower_heating_value * heat_release_burnt_fraction(P, side, 1.0)
+    wanted = gas_properties_internal_energy(P, side, T) + heat / c.mass
+    hot = T
+    for _ in range(50):
+        excess = gas_properties_internal_energy(P, side, hot) - wanted
+        change = excess * (gas_properties_gamma(P, side, hot) - 1.0) / c.gas_constant
+        hot -= change
+        if abs(change) <= 1e-15 * hot:
+            break
+    y[THETA + side] += log(hot / T)
+    y[N_STATE + HEAT_RELEASED + side] += heat
 
 
 @compiled
@@ -127,7 +153,7 @@ def open_ports(P, E, C, side, y):
     before = internal_energy(P, C, side, y)
     c = C[side]
     c.mode = OPEN
-    c.armed = 0
+    c.armed = DISARMED
     c.T_closing = c.intake_temperature
     y[IGNITION + side] = 0.0
     c.exhaust_energy += before - internal_energy(P, C, side, y)
@@ -151,7 +177,10 @@ def close_ports(P, E, C, side, y):
     c.equivalence_ratio = fuel * c.air_fuel_ratio / max(air, 1e-300)
     c.p_closing, c.T_closing, c.V_closing = c.intake_pressure, T, volume
     c.mode = CLOSED
-    c.armed = 1 if fuel > 0.0 else 0
+    c.charge_number += 1.0
+    c.armed = ARMED if fuel > 0.0 else DISARMED
+    if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
+        c.armed = FAILING
     y[IGNITION + side] = 0.0
     y[THETA + side] = log(c.intake_pressure) + G0 * log(height / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
@@ -240,7 +269,9 @@ def regulate(P, E, C, y):
 @inline
 def misfires(E, C, side):
     """Whether a chamber that begins to expand holds a charge that should have lit."""
-    return C[side].armed == 1 and C[side].mode == CLOSED and C[side].sign * E.direction > 0.0
+    c = C[side]
+    due = c.armed == ARMED or c.armed == FAILING
+    return due and c.mode == CLOSED and c.sign * E.direction > 0.0
 
 
 @inline
@@ -256,14 +287,17 @@ def ports_due(E, C, side, y):
 
 
 @compiled
-def change_due(E, C, side, y):
+def change_due(P, E, C, side, y):
     """Kind of the event that is due in a chamber now; -1 if none is."""
     c = C[side]
     if c.mode == BURNING and E.t >= c.t_end:
         return EVENT_END_OF_COMBUSTION
     if misfires(E, C, side):
+        lit = c.armed == ARMED
+        if lit and ignition_lights_at_dead_centre(P, side, charge_of(E, C, side)) > 0.0:
+            return EVENT_IGNITION
         return EVENT_MISFIRE
-    if c.mode == CLOSED and c.armed == 1 and y[IGNITION + side] >= 1.0:
+    if c.mode == CLOSED and c.armed > DISARMED and y[IGNITION + side] >= 1.0:
         return EVENT_IGNITION
     if ports_due(E, C, side, y):
         return EVENT_PORT_CLOSING if c.mode == OPEN else EVENT_PORT_OPENING
@@ -276,8 +310,10 @@ def change_mode(P, E, C, O, side, y, kind):
     if kind == EVENT_END_OF_COMBUSTION:
         end_combustion(P, E, C, side)
     elif kind == EVENT_MISFIRE:
-        C[side].armed = 0
-        y[IGNITION + side] = 0.0
+        c = C[side]
+        c.armed = LATE if c.armed == ARMED and c.late_ignition > 0.0 else DISARMED
+        if c.armed == DISARMED:
+            y[IGNITION + side] = 0.0
     elif kind == EVENT_IGNITION:
         ignite(P, E, C, side, y, O.motored)
     elif kind == EVENT_PORT_CLOSING:
@@ -314,7 +350,7 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
     for _ in range(12):
         quiet = True
         for side in range(2):
-            kind = change_due(E, C, side, y)
+            kind = change_due(P, E, C, side, y)
             if kind >= 0:
                 record_event(E, C, O, y, kind, side, events, filled)
                 change_mode(P, E, C, O, side, y, kind)
@@ -330,6 +366,8 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
             changed = True
     if landed >= HEAD:
         record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, events, filled)
+    if changed:
+        refresh(P, E, C)
     return changed
 
 

@@ -26,6 +26,10 @@ class Gas(NamedTuple):
         Temperature of head, liner and crown [K].
     burning : float
         1 while heat is being released, otherwise 0.
+    height_rate : float
+        Rate of the height [m/s], negative in compression.
+    p_rate : float
+        Rate of the pressure [Pa/s]; shown to ignition laws only, 0 elsewhere.
     """
 
     p: float
@@ -37,6 +41,8 @@ class Gas(NamedTuple):
     mean_piston_speed: float
     wall_temperature: float
     burning: float
+    height_rate: float = 0.0
+    p_rate: float = 0.0
 
 
 class Charge(NamedTuple):
@@ -75,12 +81,15 @@ class Motion(NamedTuple):
     direction : float
         +1 on the way right, -1 on the way left, 0 before the first movement. Unlike the sign of
         `v` it does not flicker at a dead centre.
+    current : float
+        Current in the alternator [A]; 0 unless its law has one.
     """
 
     t: float
     x: float
     v: float
     direction: float
+    current: float = 0.0
 
 
 class Stroke(NamedTuple):

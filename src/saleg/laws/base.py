@@ -7,9 +7,28 @@ functions, ``math`` and ``np``. It does not call its other methods through ``sel
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+
+
+class Validity(NamedTuple):
+    """Range of one quantity for which a law was made.
+
+    Attributes
+    ----------
+    quantity : str
+        "temperature" [K], "pressure" [Pa], "mean_piston_speed" [m/s] or "equivalence_ratio" [-].
+    low, high : float
+        The range.
+    source : str
+        Who says so.
+    """
+
+    quantity: str
+    low: float
+    high: float
+    source: str
 
 
 class Law:
@@ -21,10 +40,20 @@ class Law:
         Name of the slot the law fills.
     compiled : tuple of str
         Methods the kernel calls; every law of a slot has all of them.
+    optional : tuple of str
+        Those among them with a default that suits most laws.
+    at_every_step : tuple of str
+        Those among them, of gas and charge, whose formula the kernel eases
+        (:mod:`saleg.kernel.powers`).
+    valid_for : tuple of Validity
+        Ranges the law was made for; a run says where it left them.
     """
 
     slot: ClassVar[str] = ""
     compiled: ClassVar[tuple[str, ...]] = ()
+    optional: ClassVar[tuple[str, ...]] = ()
+    at_every_step: ClassVar[tuple[str, ...]] = ()
+    valid_for: ClassVar[tuple[Validity, ...]] = ()
 
 
 class GasProperties(Law):
@@ -45,10 +74,18 @@ class GasProperties(Law):
 
 
 class HeatTransfer(Law):
-    """Heat transfer from the gas to the wall."""
+    """Heat transfer from the gas to the wall.
+
+    Attributes
+    ----------
+    needs_motored_pressure : bool
+        Whether it looks at ``gas.p_motored``; every run with the law then integrates it.
+    """
 
     slot = "heat_transfer"
     compiled = ("coefficient",)
+    at_every_step = ("coefficient",)
+    needs_motored_pressure: ClassVar[bool] = False
 
     def coefficient(self, gas: Gas, charge: Charge) -> float:
         """Heat-transfer coefficient [W/m^2/K]."""
@@ -75,13 +112,37 @@ class HeatRelease(Law):
 
 
 class Ignition(Law):
-    """Self-ignition by an integral that starts at port closing."""
+    """Start of combustion by an integral that starts at port closing."""
 
     slot = "ignition"
-    compiled = ("rate",)
+    compiled = ("rate", "lights_at_dead_centre")
+    optional = ("lights_at_dead_centre",)
+    at_every_step = ("rate",)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]; the charge lights when the integral reaches 1."""
+        raise NotImplementedError
+
+    def lights_at_dead_centre(self, charge: Charge) -> float:
+        """1 if a charge that has not lit before is lit at dead centre, else 0."""
+        return 0.0
+
+
+class Misfires(Law):
+    """Charges that do not light, whatever the ignition law says."""
+
+    slot = "misfires"
+    compiled = ("happens",)
+
+    def happens(self, charge_number: float) -> float:
+        """1 if a charge does not light, else 0.
+
+        Parameters
+        ----------
+        charge_number : float
+            Charges of this cylinder composed so far, this one included; the one the run starts
+            with is number 0.
+        """
         raise NotImplementedError
 
 
@@ -145,7 +206,8 @@ class Alternator(Law):
     """Linear alternator; `held` is its load weight, set anew at each dead centre."""
 
     slot = "alternator"
-    compiled = ("at_dead_centre", "force", "electrical_power")
+    compiled = ("at_dead_centre", "force", "electrical_power", "current_rate")
+    optional = ("current_rate",)
 
     def at_dead_centre(self, held: float, stroke: Stroke) -> float:
         """Return the load weight [-] until the next dead centre."""
@@ -159,9 +221,14 @@ class Alternator(Law):
         """Electrical power delivered [W]."""
         raise NotImplementedError
 
+    def current_rate(self, held: float, motion: Motion) -> float:
+        """Rate of the current [A/s], for a law that has one (``motion.current``)."""
+        return 0.0
+
 
 #: Slots of one chamber and slots of the whole engine, by name.
 CHAMBER_SLOTS: dict[str, type[Law]] = {
-    law.slot: law for law in (GasProperties, HeatTransfer, HeatRelease, Ignition, GasExchange)
+    law.slot: law
+    for law in (GasProperties, HeatTransfer, HeatRelease, Ignition, GasExchange, Misfires)
 }
 ENGINE_SLOTS: dict[str, type[Law]] = {law.slot: law for law in (Springs, Friction, Alternator)}

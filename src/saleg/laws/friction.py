@@ -10,6 +10,71 @@ from saleg.quantities import quantity
 
 
 @dataclass(frozen=True)
+class NoFriction(Friction):
+    """No friction at all."""
+
+    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+        """Nothing is held: zero."""
+        return 0.0
+
+    def force(self, held: float, motion: Motion) -> float:
+        """Force against positive velocity [N]: zero."""
+        return 0.0
+
+
+@dataclass(frozen=True)
+class ConstantFriction(Friction):
+    """A constant force against the motion (Eq. 37): ``F = A (pi b^2 / 8) S f``.
+
+    Blair's mean pressure for two-stroke engines; S and f, in rev/min, are those of the latest
+    stroke. The force turns with the translator, at the dead centres and nowhere else.
+
+    Parameters
+    ----------
+    factor : float
+        Leading coefficient A [kg/m^2/s]; 150 in Blair's correlation.
+    """
+
+    factor: float = quantity("kg/m^2/s", default=150.0, low=0)
+
+    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+        """Force [N], Eq. 37."""
+        speed = 60.0 * 0.5 / stroke.duration
+        return self.factor * 0.5 * stroke.piston_area * stroke.length * speed
+
+    def force(self, held: float, motion: Motion) -> float:
+        """Force against positive velocity [N]."""
+        return held * motion.direction
+
+
+@dataclass(frozen=True)
+class CoulombViscousFriction(Friction):
+    """Coulomb and viscous friction together (Eq. 38): ``F = sign(v) (f1 + f2 |v|)``.
+
+    Sandia's form; its coefficients were never published. The sign is that of the stroke: within a
+    stroke the force is smooth, at a dead centre it turns with the translator.
+
+    Parameters
+    ----------
+    coulomb : float
+        Force f1 that does not depend on speed [N].
+    viscous : float
+        Coefficient f2 [N s/m].
+    """
+
+    coulomb: float = quantity("N", default=50.0, low=0)
+    viscous: float = quantity("N s/m", default=8.0, low=0)
+
+    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+        """Coulomb force [N]."""
+        return self.coulomb
+
+    def force(self, held: float, motion: Motion) -> float:
+        """Force against positive velocity [N], Eq. 38."""
+        return held * motion.direction + self.viscous * motion.v
+
+
+@dataclass(frozen=True)
 class ViscousFriction(Friction):
     """Viscous friction with a fixed coefficient (Eq. 39): ``F = c_f v``.
 

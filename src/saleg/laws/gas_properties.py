@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from saleg.laws.base import GasProperties
+from saleg.laws.base import GasProperties, Validity
 from saleg.quantities import quantity
 
 # Gauss-Legendre abscissae and weights on [-1, 1]: twelve points integrate c_v of Eq. 49 over its
@@ -52,6 +52,8 @@ class ChangGas(GasProperties):
     >>> round(ChangGas().gamma(1000.0), 6)
     1.304503
     """
+
+    valid_for = (Validity("temperature", 550.0, 2150.0, "Chang et al., SAE 2004-01-2996"),)
 
     gas_constant: float = quantity("J/kg/K", default=287.0, low=0, open_low=True)
 

@@ -1,4 +1,4 @@
-"""Self-ignition of the charge."""
+"""Start of combustion: self-ignition, sparks, and what else lights a charge."""
 
 from __future__ import annotations
 
@@ -6,8 +6,18 @@ import math
 from dataclasses import dataclass
 
 from saleg.laws.arguments import Charge, Gas
-from saleg.laws.base import Ignition
-from saleg.quantities import quantity
+from saleg.laws.base import Ignition, Validity
+from saleg.laws.interpolation import interval, share
+from saleg.quantities import quantity, series
+
+#: Universal gas constant [cal/mol/K], and standard atmosphere [Pa].
+GAS_CONSTANT_CAL = 1.98720425864
+ATMOSPHERE = 101325.0
+#: Molar masses [kg/mol] of air (21 % oxygen, 79 % nitrogen by volume) and of methane.
+AIR = 0.02885
+METHANE = 0.016043
+OXYGEN_IN_AIR = 0.21
+HE = "He et al., Combust. Flame 142:266 (2005)"
 
 
 @dataclass(frozen=True)
@@ -42,3 +52,219 @@ class CFRIgnition(Ignition):
         """Rate of the knock integral [1/s]."""
         chemistry = math.exp(-self.b * (gas.p * 1e-3) ** self.n / gas.T)
         return self.k / self.A * charge.equivalence_ratio**self.x * chemistry
+
+
+@dataclass(frozen=True)
+class RCMIgnition(Ignition):
+    """Ignition delay of iso-octane in a rapid compression machine (Eq. 56), in its own units.
+
+    ``tau = A p^-1.05 phi^-0.77 x_O2^-1.41 exp(E / (R T))`` in s, with p in atm, x_O2 in mole
+    percent and E in cal/mol (He et al., Combust. Flame 142:266, 2005). So used it needs about
+    1000 K: the thesis' base case never fires; see :class:`RCMIgnitionPascal`.
+
+    Parameters
+    ----------
+    A : float
+        Leading coefficient [s in the correlation's units].
+    pressure_exponent, equivalence_ratio_exponent, oxygen_exponent : float
+        The exponents [-].
+    activation_energy : float
+        Activation energy E [cal/mol].
+
+    Examples
+    --------
+    >>> round(1e3 * rcm_delay(10.0, 1000.0, 0.4, 21.0, RCMIgnition()), 2)
+    7.43
+    """
+
+    valid_for = (
+        Validity("pressure", 5.12 * ATMOSPHERE, 23.0 * ATMOSPHERE, HE),
+        Validity("temperature", 943.0, 1027.0, HE),
+        Validity("equivalence_ratio", 0.25, 1.0, HE),
+    )
+
+    A: float = quantity("s", default=1.3e-7, low=0, open_low=True)
+    pressure_exponent: float = quantity("-", default=-1.05)
+    equivalence_ratio_exponent: float = quantity("-", default=-0.77)
+    oxygen_exponent: float = quantity("-", default=-1.41)
+    activation_energy: float = quantity("cal/mol", default=33700.0)
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]: one over the delay."""
+        ratio = charge.equivalence_ratio**-self.equivalence_ratio_exponent
+        mixture = oxygen_percent(charge) ** -self.oxygen_exponent * ratio / self.A
+        pressure = (gas.p / ATMOSPHERE) ** -self.pressure_exponent
+        return mixture * pressure * math.exp(-self.activation_energy / GAS_CONSTANT_CAL / gas.T)
+
+
+@dataclass(frozen=True)
+class RCMIgnitionPascal(RCMIgnition):
+    """The same formula with the pressure in pascal, the reading with which the thesis' engine runs.
+
+    With it the base case fires, later than with :class:`CFRIgnition`; the "significantly earlier"
+    of section 3.6.4 comes with no reading of the units.
+
+    Parameters
+    ----------
+    A, pressure_exponent, equivalence_ratio_exponent, oxygen_exponent, activation_energy : float
+        See :class:`RCMIgnition`.
+    """
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]: one over the delay."""
+        ratio = charge.equivalence_ratio**-self.equivalence_ratio_exponent
+        mixture = oxygen_percent(charge) ** -self.oxygen_exponent * ratio / self.A
+        pressure = gas.p**-self.pressure_exponent
+        return mixture * pressure * math.exp(-self.activation_energy / GAS_CONSTANT_CAL / gas.T)
+
+
+def oxygen_percent(charge: Charge) -> float:
+    """Mole percent of oxygen in a charge; its burnt gas counts as air without the oxygen."""
+    air, burnt = charge.air / AIR, charge.burnt / AIR
+    return 100.0 * OXYGEN_IN_AIR * air / (air + burnt + charge.fuel / METHANE)
+
+
+def rcm_delay(p: float, T: float, phi: float, oxygen: float, law: RCMIgnition) -> float:
+    """Ignition delay of Eq. 56 [s], at a pressure [atm], temperature [K] and mixture.
+
+    Parameters
+    ----------
+    p, T, phi, oxygen : float
+        Pressure [atm], temperature [K], equivalence ratio [-], oxygen [mole percent].
+    law : RCMIgnition
+        The coefficients.
+    """
+    mixture = phi**law.equivalence_ratio_exponent * oxygen**law.oxygen_exponent
+    energy = math.exp(law.activation_energy / (GAS_CONSTANT_CAL * T))
+    return law.A * p**law.pressure_exponent * mixture * energy
+
+
+@dataclass(frozen=True)
+class SparkAtClearance(Ignition):
+    """A spark where the piston, on its way in, comes within a clearance of the head.
+
+    The integral grows with the way from port closing to the spark, so it is exact.
+
+    Parameters
+    ----------
+    clearance : float
+        Clearance between crown and head at the spark [m].
+    """
+
+    clearance: float = quantity("m", default=0.020, low=0)
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]: speed inward over the way to go."""
+        way = charge.V / gas.V * gas.height - self.clearance
+        return max(-gas.height_rate, 0.0) / max(way, 1e-9)
+
+
+@dataclass(frozen=True)
+class SparkAfterDelay(Ignition):
+    """A spark some time after the ports have closed.
+
+    If the piston has turned by then, the charge is not lit.
+
+    Parameters
+    ----------
+    delay : float
+        Time from port closing to the spark [s].
+    """
+
+    delay: float = quantity("s", default=7e-3, low=0, open_low=True)
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]."""
+        return 1.0 / self.delay
+
+
+@dataclass(frozen=True)
+class IgnitionAtPressure(Ignition):
+    """Ignition at a pressure, as Chapter 2 has it (2.5).
+
+    Parameters
+    ----------
+    pressure : float
+        Pressure at which the charge lights [Pa].
+    """
+
+    pressure: float = quantity("Pa", default=40e5, low=0, open_low=True)
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]: that of the pressure over the rise to go."""
+        return gas.p_rate / max(self.pressure - charge.p, 1.0)
+
+
+@dataclass(frozen=True)
+class IgnitionAtDeadCentre(Ignition):
+    """Ignition at the dead centre, wherever that is: the ideal of Chapter 2."""
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]: zero."""
+        return 0.0
+
+    def lights_at_dead_centre(self, charge: Charge) -> float:
+        """1 if a charge that has not lit before is lit at dead centre: always."""
+        return 1.0
+
+
+@dataclass(frozen=True)
+class TabulatedDelay(Ignition):
+    """Ignition delay from a table over pressure, temperature and equivalence ratio.
+
+    The logarithm of the delay is interpolated linearly in that of the pressure, in 1/T and in the
+    equivalence ratio; beyond the table the value at its border holds.
+
+    Parameters
+    ----------
+    pressures : tuple of float
+        Pressures, rising [Pa].
+    temperatures : tuple of float
+        Temperatures, rising [K].
+    equivalence_ratios : tuple of float
+        Equivalence ratios, rising [-].
+    delays : tuple of float
+        Delays [s], equivalence ratio running fastest, then temperature, then pressure.
+    """
+
+    pressures: tuple[float, ...] = series("Pa", default=(10e5, 100e5), low=1.0, rising=True)
+    temperatures: tuple[float, ...] = series("K", default=(700.0, 1300.0), low=1.0, rising=True)
+    equivalence_ratios: tuple[float, ...] = series("-", default=(0.6,), low=0, rising=True)
+    delays: tuple[float, ...] = series(
+        "s",
+        default=(0.1, 1e-4, 0.01, 1e-5),
+        low=1e-30,
+        length="pressures*temperatures*equivalence_ratios",
+    )
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]: one over the delay."""
+        i = interval(gas.p, self.pressures)
+        j = interval(gas.T, self.temperatures)
+        k = interval(charge.equivalence_ratio, self.equivalence_ratios)
+        u = share_of_logarithm(gas.p, self.pressures, i)
+        v = share_of_inverse(gas.T, self.temperatures, j)
+        w = share(charge.equivalence_ratio, self.equivalence_ratios, k)
+        rows, columns = len(self.temperatures), len(self.equivalence_ratios)
+        ln_delay = 0.0
+        for corner in range(8):
+            a, b, c = corner // 4, corner // 2 % 2, corner % 2
+            weight = (u if a else 1.0 - u) * (v if b else 1.0 - v) * (w if c else 1.0 - w)
+            if weight > 0.0:
+                entry = ((i + a) * rows + j + b) * columns + k + c
+                ln_delay += weight * math.log(self.delays[entry])
+        return math.exp(-ln_delay)
+
+
+def share_of_logarithm(x: float, grid: tuple[float, ...], i: int) -> float:
+    """Where ln x lies between the logarithms of an interval's ends, from 0 to 1."""
+    if len(grid) == 1:
+        return 0.0
+    return min(max(math.log(x / grid[i]) / math.log(grid[i + 1] / grid[i]), 0.0), 1.0)
+
+
+def share_of_inverse(x: float, grid: tuple[float, ...], i: int) -> float:
+    """Where 1/x lies between the inverses of an interval's ends, from 0 to 1."""
+    if len(grid) == 1:
+        return 0.0
+    return min(max((1.0 / x - 1.0 / grid[i]) / (1.0 / grid[i + 1] - 1.0 / grid[i]), 0.0), 1.0)

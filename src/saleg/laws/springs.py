@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Springs
-from saleg.quantities import quantity
+from saleg.laws.interpolation import linear, linear_integral
+from saleg.quantities import quantity, series
 
 
 @dataclass(frozen=True)
 class LinearSprings(Springs):
-    """Two equal linear springs (Eq. 41-42): ``F = -2 k x``.
+    """A symmetric pair of linear springs (Eq. 41-42): ``F = -2 k x``.
 
     Parameters
     ----------
     stiffness : float
-        Stiffness k of each spring [N/m].
-
-    Examples
-    --------
-    >>> from saleg.laws import Motion
-    >>> LinearSprings(30e3).force(Motion(t=0.0, x=0.01, v=0.0, direction=1.0))
-    -600.0
+        Stiffness k of one spring [N/m].
     """
 
-    stiffness: float = quantity("N/m", default=0.0, low=0)
+    stiffness: float = quantity("N/m", default=30e3, low=0)
 
     def force(self, motion: Motion) -> float:
         """Force on the translator [N], Eq. 42."""
@@ -34,3 +30,115 @@ class LinearSprings(Springs):
     def energy(self, motion: Motion) -> float:
         """Energy stored in both springs [J]."""
         return self.stiffness * motion.x * motion.x
+
+
+@dataclass(frozen=True)
+class ProgressiveSprings(Springs):
+    """A symmetric pair of springs with any stiffness profile, the same to either side.
+
+    ``F = -2 sign(x) integral of k(s) ds from 0 to |x|``, k piecewise linear in the deflection and
+    constant beyond its ends.
+
+    Parameters
+    ----------
+    deflections : tuple of float
+        Deflections from the midpoint, rising [m].
+    stiffnesses : tuple of float
+        Tangent stiffness of one spring there [N/m].
+    """
+
+    deflections: tuple[float, ...] = series("m", default=(0.0, 0.1), low=0, rising=True)
+    stiffnesses: tuple[float, ...] = series(
+        "N/m", default=(30e3, 45e3), low=0, length="deflections"
+    )
+
+    def force(self, motion: Motion) -> float:
+        """Force on the translator [N]."""
+        pull = 2.0 * linear_integral(abs(motion.x), self.deflections, self.stiffnesses)
+        return -math.copysign(pull, motion.x)
+
+    def energy(self, motion: Motion) -> float:
+        """Energy stored in both springs [J]: the force is quadratic between the points."""
+        reach = abs(motion.x)
+        total, start = 0.0, 0.0
+        for i in range(len(self.deflections) + 1):
+            end = min(self.deflections[i], reach) if i < len(self.deflections) else reach
+            width = end - start
+            if width > 0.0:
+                force = 2.0 * linear_integral(start, self.deflections, self.stiffnesses)
+                k0 = 2.0 * linear(start, self.deflections, self.stiffnesses)
+                k1 = 2.0 * linear(end, self.deflections, self.stiffnesses)
+                total += width * (force + width * (k0 / 3.0 + k1 / 6.0))
+                start = end
+        return total
+
+
+@dataclass(frozen=True)
+class PreloadedSprings(Springs):
+    """Two springs that push against each other and lift off where one has no load left.
+
+    Within ``|x| < preload / k`` both act, ``F = -2 k x``; beyond, one alone:
+    ``F = -sign(x) (preload + k |x|)``. Without preload there is always just one: ``F = -k x``.
+
+    Parameters
+    ----------
+    stiffness : float
+        Stiffness k of one spring [N/m].
+    preload : float
+        Force in each spring at the midpoint [N].
+    """
+
+    stiffness: float = quantity("N/m", default=30e3, low=0)
+    preload: float = quantity("N", default=3e3, low=0)
+
+    def force(self, motion: Motion) -> float:
+        """Force on the translator [N]."""
+        left = max(self.preload - self.stiffness * motion.x, 0.0)
+        right = max(self.preload + self.stiffness * motion.x, 0.0)
+        return left - right
+
+    def energy(self, motion: Motion) -> float:
+        """Energy stored in both springs [J], above that at the midpoint.
+
+        From ``(F_left^2 + F_right^2) / 2k``, in a form that is exact without stiffness too.
+        """
+        pull = self.stiffness * abs(motion.x)
+        if pull <= self.preload:
+            return pull * abs(motion.x)
+        both = self.preload * self.preload / self.stiffness
+        rest = abs(motion.x) - self.preload / self.stiffness
+        return both + rest * (2.0 * self.preload + 0.5 * self.stiffness * rest)
+
+
+@dataclass(frozen=True)
+class EndStops(Springs):
+    """Linear springs and an elastic stop at either end.
+
+    ``F = -2 k x``, and beyond the stops ``-k_stop (|x| - gap)`` more. The stops give back what they
+    take.
+
+    Parameters
+    ----------
+    stiffness : float
+        Stiffness k of one spring [N/m].
+    gap : float
+        Distance of the stops from the midpoint [m].
+    stop_stiffness : float
+        Stiffness of a stop [N/m].
+    """
+
+    stiffness: float = quantity("N/m", default=30e3, low=0)
+    gap: float = quantity("m", default=0.095, low=0)
+    stop_stiffness: float = quantity("N/m", default=10e6, low=0)
+
+    def force(self, motion: Motion) -> float:
+        """Force on the translator [N]."""
+        beyond = max(abs(motion.x) - self.gap, 0.0)
+        stop = math.copysign(self.stop_stiffness * beyond, motion.x)
+        return -2.0 * self.stiffness * motion.x - stop
+
+    def energy(self, motion: Motion) -> float:
+        """Energy stored in springs and stops [J]."""
+        beyond = max(abs(motion.x) - self.gap, 0.0)
+        stop = 0.5 * self.stop_stiffness * beyond * beyond
+        return self.stiffness * motion.x * motion.x + stop

@@ -2,7 +2,8 @@
 
 Every figure is a function of a run and, if wanted, of the axes to draw on; it returns the axes.
 Axes of one's own may belong to pyplot; those made here do not, so no display is needed and nothing
-has to be closed. ``run.plot`` offers the same functions: ``run.plot.forces()``.
+has to be closed. ``run.plot`` offers the same functions: ``run.plot.forces()``. Figures of the
+numerical studies are in ``saleg.plotting.studies``.
 
 matplotlib is imported only when something is drawn.
 
@@ -16,6 +17,7 @@ Examples
 'pressure [bar]'
 """
 
+from saleg.plotting import studies
 from saleg.plotting.cycle import NoCycle
 from saleg.plotting.energy import energy_pie
 from saleg.plotting.gas import (
@@ -64,5 +66,6 @@ __all__ = [
     "pressure_position",
     "pressure_time",
     "pressure_volume",
+    "studies",
     "velocity_position",
 ]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from inspect import cleandoc
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -15,9 +17,9 @@ from saleg.plotting.style import (
     MARKERS,
     TRANSLATOR_COLOUR,
     Stroke,
+    axes_or_new,
     marker,
 )
-from saleg.status import Status
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -30,7 +32,7 @@ SAME_PRESSURE = 1e-6
 
 
 class NoCycle(SalegError, ValueError):
-    """A run without what a figure shows: a full cycle, an earlier one, or fuel."""
+    """A run without what a figure shows: a full cycle, one before it, fuel, or a closed balance."""
 
 
 class Quantity(NamedTuple):
@@ -90,8 +92,12 @@ class Cycle:
 
     def titled(self, title: str) -> str:
         """The title, with a warning if the run did not end well."""
-        well = self.run.status in (Status.STEADY, Status.COMPLETED)
-        return title if well else f"{title} (the run ended: {self.run.status})"
+        return titled(self.run, title)
+
+    @property
+    def marked(self) -> pd.DataFrame:
+        """Events that are drawn as markers."""
+        return self.events[self.events["event"].isin(list(MARKERS))]
 
     def has_motored_pressure(self) -> bool:
         """Whether the motored pressure was integrated and differs from the actual one."""
@@ -99,6 +105,11 @@ class Cycle:
             bool((np.abs(self(MOTORED, side) / self(PRESSURE, side) - 1.0) > SAME_PRESSURE).any())
             for side in COLOURS
         )
+
+
+def titled(run: Run, title: str) -> str:
+    """A figure's title, with a warning if the run did not end well."""
+    return title if run.status.ended_well else f"{title} (the run ended: {run.status})"
 
 
 def last_cycle(run: Run) -> Cycle:
@@ -113,6 +124,51 @@ def last_cycle(run: Run) -> Cycle:
     if orbit is None or orbit.history is None or len(orbit.strokes) < 2:
         raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
     return Cycle(run, orbit.strokes, orbit.history, orbit.events)
+
+
+class FigureOfRun(Protocol):
+    """A figure of a run on one axes."""
+
+    def __call__(self, run: Run, ax: Axes | None = None) -> Axes:
+        """Draw on the axes handed in, or on new ones."""
+
+
+#: What the docstring of every figure of the last cycle ends with.
+CONVENTIONS = """
+
+Parameters
+----------
+run : Run
+ax : matplotlib.axes.Axes, optional
+    Axes to draw on; new ones unless given.
+
+Returns
+-------
+matplotlib.axes.Axes
+
+Raises
+------
+NoCycle
+    If the run completed no full cycle.
+"""
+
+
+def figure_of_cycle(draw: Callable[[Cycle, Axes], Axes]) -> FigureOfRun:
+    """Make a figure of a run from what draws its last cycle; completes the docstring."""
+
+    def figure(run: Run, ax: Axes | None = None) -> Axes:
+        return draw(last_cycle(run), axes_or_new(ax))
+
+    figure.__module__, figure.__name__ = draw.__module__, draw.__name__
+    figure.__qualname__ = draw.__qualname__
+    figure.__doc__ = cleandoc(draw.__doc__ or "") + CONVENTIONS
+    return figure
+
+
+def time_axis(ax: Axes, cycle: Cycle) -> None:
+    """Time over the whole cycle, from its left dead centre on."""
+    ax.set_xlim(0.0, TIME.scale * cycle.period)
+    ax.set_xlabel(TIME.label)
 
 
 def draw_sides(
@@ -143,8 +199,9 @@ def draw_sides(
 def draw_translator(ax: Axes, cycle: Cycle, across: Quantity, up: Quantity) -> None:
     """The one curve of the translator, with the events of both chambers."""
     ax.plot(cycle(across), cycle(up), color=TRANSLATOR_COLOUR, linewidth=1.6, label="_translator")
-    for side, colour in COLOURS.items():
-        ax.plot([], [], color=colour, marker="o", linestyle="none", label=side)
+    marked = set(cycle.marked["side"])
+    for side in (side for side in COLOURS if side in marked):
+        ax.plot([], [], color=COLOURS[side], marker="o", linestyle="none", label=side)
     _mark(ax, cycle, across, up, {})
     ax.set_xlabel(across.label)
     ax.set_ylabel(up.label)

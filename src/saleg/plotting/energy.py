@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from saleg.plotting.cycle import NoCycle
+from saleg.plotting.cycle import NoCycle, titled
 from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
 
 if TYPE_CHECKING:
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 #: Share of the fuel energy below which a flow is not drawn.
 VISIBLE = 1e-3
+#: Share of the fuel energy that may be left over in a balance that is drawn.
+MOST_RESIDUAL = 0.01
 
 FLOW_COLOURS = {
     "electrical output": ALTERNATOR_COLOUR,
@@ -61,7 +63,7 @@ def balance_of(run: Run) -> EnergyBalance:
     Raises
     ------
     NoCycle
-        If there is none.
+        If there is none, or if it does not close.
     """
     balance = run.energy
     if balance is None:
@@ -69,6 +71,12 @@ def balance_of(run: Run) -> EnergyBalance:
         raise NoCycle(f"no energy balance to draw: it {reason} ({run.message})")
     if balance.fuel <= 0.0:
         raise NoCycle("no energy balance to draw: the last full cycle had no fresh fuel")
+    off = abs(balance.residual) / balance.fuel
+    if not off <= MOST_RESIDUAL:
+        raise NoCycle(
+            f"no energy balance to draw: it is off by {100.0 * off:.2g} % of the fuel energy; "
+            "try a smaller step or rtol"
+        )
     return balance
 
 
@@ -99,8 +107,9 @@ def energy_pie(run: Run, ax: Axes | None = None) -> Axes:
     Raises
     ------
     NoCycle
-        If the run completed no full cycle after its first stroke, if that had no fresh fuel, or if
-        energy came from elsewhere than the fuel, which no pie can show.
+        If the run completed no full cycle after its first stroke, if that had no fresh fuel or its
+        balance does not close to 1 %, or if energy came from elsewhere than the fuel, which no pie
+        can show.
     """
     balance = balance_of(run)
     flows = visible_flows(balance)
@@ -110,15 +119,18 @@ def energy_pie(run: Run, ax: Axes | None = None) -> Axes:
             f"no pie can show a gain ({', '.join(gained)}): draw energy_sankey, or simulate until "
             "the engine runs steadily"
         )
-    ax = axes_or_new(ax, 5.6, 4.4)
-    ax.pie(
+    ax = axes_or_new(ax, 6.0, 4.0)
+    wedges = ax.pie(
         list(flows.values()),
-        labels=[f"{name} {100.0 * flow / balance.fuel:.1f} %" for name, flow in flows.items()],
         colors=[FLOW_COLOURS[name] for name in flows],
         startangle=90.0,
         counterclock=False,
         wedgeprops={"edgecolor": "white", "linewidth": 1.2},
-        textprops={"fontsize": "small"},
-    )
-    ax.set_title(f"Fuel energy of a cycle: {joules(balance.fuel)}", fontsize="medium")
+    )[0]
+    # Names beside thin wedges would overprint each other.
+    names = [f"{name} {100.0 * flow / balance.fuel:.1f} %" for name, flow in flows.items()]
+    look: dict[str, Any] = {"fontsize": "small", "frameon": False, "loc": "center left"}
+    ax.legend(wedges, names, bbox_to_anchor=(1.0, 0.5), **look)
+    ax.set_anchor("E")  # beside the legend, which the layout makes room for, however wide the axes
+    ax.set_title(titled(run, f"Fuel energy of a cycle: {joules(balance.fuel)}"), fontsize="medium")
     return ax

@@ -10,126 +10,67 @@ from saleg.plotting.cycle import (
     PRESSURE,
     TIME,
     VOLUME,
+    Cycle,
     draw_sides,
-    last_cycle,
+    figure_of_cycle,
+    time_axis,
 )
-from saleg.plotting.style import COINCIDING, axes_or_new, finish, zero_lines
+from saleg.plotting.style import COINCIDING, finish, from_zero, zero_lines
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.results import Run
 
-
-def pressure_volume(run: Run, ax: Axes | None = None) -> Axes:
+@figure_of_cycle
+def pressure_volume(cycle: Cycle, ax: Axes) -> Axes:
     """Draw pressure [bar] over volume [cm^3] of both chambers over the last full cycle.
 
     The motored pressure is dotted if ``simulate(..., motored_pressure=True)`` integrated it.
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
-    cycle = last_cycle(run)
-    ax = axes_or_new(ax)
     draw_sides(ax, cycle, VOLUME, PRESSURE, COINCIDING, motored=True)
-    ax.set_xlim(left=0.0)
-    ax.set_ylim(bottom=0.0)
-    return finish(ax, cycle.titled("Pressure and volume"), "upper right")
+    ax.set_xlim(0.0, 1.05 * ax.dataLim.xmax)
+    from_zero(ax)
+    return finish(ax, cycle.titled("Pressure and volume"), _clear_of(cycle, "upper right"))
 
 
-def pressure_position(run: Run, ax: Axes | None = None) -> Axes:
+@figure_of_cycle
+def pressure_position(cycle: Cycle, ax: Axes) -> Axes:
     """Draw pressure [bar] of both chambers over position [mm] (Figure 38 of the thesis).
 
     The motored pressure is dotted if ``simulate(..., motored_pressure=True)`` integrated it.
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
-    cycle = last_cycle(run)
-    ax = axes_or_new(ax)
     draw_sides(ax, cycle, POSITION, PRESSURE, motored=True)
-    ax.set_ylim(bottom=0.0)
-    return finish(ax, cycle.titled("Pressure and position"), "upper center")
+    from_zero(ax)
+    return finish(ax, cycle.titled("Pressure and position"), _clear_of(cycle, "upper center"))
 
 
-def pressure_time(run: Run, ax: Axes | None = None) -> Axes:
+@figure_of_cycle
+def pressure_time(cycle: Cycle, ax: Axes) -> Axes:
     """Draw pressure [bar] of both chambers over time [ms] (Figure 39 of the thesis).
 
     The cycle begins at left dead centre. The motored pressure is dotted if
     ``simulate(..., motored_pressure=True)`` integrated it.
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
-    cycle = last_cycle(run)
-    ax = axes_or_new(ax)
     draw_sides(ax, cycle, TIME, PRESSURE, motored=True)
-    ax.set_xlim(0.0, TIME.scale * cycle.period)
-    ax.set_ylim(bottom=0.0)
+    time_axis(ax, cycle)
+    from_zero(ax)
     return finish(ax, cycle.titled("Pressure in time"), "below", columns=4)
 
 
-def heat_flow_time(run: Run, ax: Axes | None = None) -> Axes:
+@figure_of_cycle
+def heat_flow_time(cycle: Cycle, ax: Axes) -> Axes:
     """Draw heat flow to the walls [kW] of both chambers over time [ms].
 
     Figure 39 of the thesis calls it heat flux; here it is the whole flow of heat to head, liner and
     crown, not divided by their area. There is none while the ports are open: the model has no heat
     transfer there.
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
-    cycle = last_cycle(run)
-    ax = axes_or_new(ax)
     draw_sides(ax, cycle, TIME, HEAT_FLOW)
     zero_lines(ax, y=True)
-    ax.set_xlim(0.0, TIME.scale * cycle.period)
+    time_axis(ax, cycle)
     return finish(ax, cycle.titled("Heat to the walls in time"), "below", columns=3)
+
+
+def _clear_of(cycle: Cycle, place: str) -> str:
+    """Where the pressures of a cycle with events leave room for the legend; any place without."""
+    return place if len(cycle.marked) else "best"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from saleg.plotting.cycle import NoCycle, last_cycle
+from saleg.plotting.cycle import NoCycle, last_cycle, titled
 from saleg.plotting.gas import pressure_position
 from saleg.plotting.style import COINCIDING, COLOURS, TRANSLATOR_COLOUR, finish, new_figure
 from saleg.plotting.translator import velocity_position
@@ -19,13 +19,17 @@ if TYPE_CHECKING:
     from saleg.results import Run
 
 
-def dynamics(run: Run, axes: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+#: Least relative height of an axis of :func:`approach_to_steady_state`: what varies less is steady.
+LEAST_SPAN = 1e-4
+
+
+def dynamics(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw velocity and pressures over position side by side (Figure 92 of the thesis).
 
     Parameters
     ----------
     run : Run
-    axes : sequence of two matplotlib.axes.Axes, optional
+    ax : array of two matplotlib.axes.Axes, optional
         Axes to draw on; new ones unless given.
 
     Returns
@@ -38,7 +42,7 @@ def dynamics(run: Run, axes: Sequence[Axes] | np.ndarray | None = None) -> np.nd
         If the run completed no full cycle.
     """
     last_cycle(run)
-    panels = _panels(axes, (1, 2), 10.0, 4.2)
+    panels = _panels(ax, (1, 2), 10.0, 4.2)
     legend = velocity_position(run, panels[0]).get_legend()
     if legend is not None:
         legend.remove()  # that of the pressures has it all
@@ -46,18 +50,16 @@ def dynamics(run: Run, axes: Sequence[Axes] | np.ndarray | None = None) -> np.nd
     return panels
 
 
-def approach_to_steady_state(
-    run: Run, axes: Sequence[Axes] | np.ndarray | None = None
-) -> np.ndarray:
+def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw how a run settles, one point per cycle (Figure 42 of the thesis).
 
     Stroke [mm], dead centres as distances from the midpoint [mm], compression ratio and electrical
-    power [kW] over time [s].
+    power [kW] over time [s]. What varies by less than 1e-4 of itself looks constant.
 
     Parameters
     ----------
     run : Run
-    axes : sequence of four matplotlib.axes.Axes, optional
+    ax : array of four matplotlib.axes.Axes, optional
         Axes to draw on; new ones unless given.
 
     Returns
@@ -72,7 +74,7 @@ def approach_to_steady_state(
     cycles = run.cycles
     if len(cycles) == 0:
         raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
-    panels = _panels(axes, (2, 2), 9.0, 5.4)
+    panels = _panels(ax, (2, 2), 9.0, 5.4)
     time = (cycles["t"] + cycles["period"]).to_numpy()
     grey, points = TRANSLATOR_COLOUR, {"marker": ".", "markersize": 4.0}
     stroke, centres, ratio, power = panels
@@ -83,30 +85,42 @@ def approach_to_steady_state(
         centres.plot(time, place, color=COLOURS[side], label=side, **look)
     ratio.plot(time, cycles["compression_ratio"].to_numpy(), color=grey, **points)
     power.plot(time, 1e-3 * cycles["power"].to_numpy(), color=grey, **points)
-    for ax, label in (
+    for panel, label in (
         (stroke, "stroke [mm]"),
         (centres, "dead centres, |x| [mm]"),
         (ratio, "compression ratio [-]"),
         (power, "mean power [kW]"),
     ):
-        ax.set_xlim(0.0, 1.02 * time[-1])
-        ax.set_xlabel("time [s]")
-        ax.set_ylabel(label)
-        ax.ticklabel_format(useOffset=False)
-        finish(ax, "", "best" if ax is centres else None)
+        start = float(cycles["t"].iloc[0])
+        panel.set_xlim(start, time[-1] + 0.02 * (time[-1] - start))
+        panel.set_xlabel("time [s]")
+        panel.set_ylabel(label)
+        _readable(panel)
+        finish(panel, "", "best" if panel is centres else None)
+    stroke.set_title(titled(run, "Approach to steady state"), fontsize="medium")
     return panels
 
 
+def _readable(ax: Axes) -> None:
+    """Few ticks with plain numbers, and a height that does not magnify rounding."""
+    low, high = ax.get_ylim()
+    spare = 0.5 * (LEAST_SPAN * max(abs(low), abs(high)) - (high - low))
+    if spare > 0.0:
+        ax.set_ylim(low - spare, high + spare)
+    ax.locator_params(nbins=5)
+    ax.ticklabel_format(useOffset=False)
+
+
 def _panels(
-    axes: Sequence[Axes] | np.ndarray | None,
+    ax: Sequence[Axes] | np.ndarray | None,
     shape: tuple[int, int],
     width: float,
     height: float,
 ) -> np.ndarray:
     """The axes handed in, or new ones, in one row of an array."""
-    if axes is None:
+    if ax is None:
         return new_figure(width, height).subplots(*shape, squeeze=False).ravel()
-    panels = np.asarray(axes, dtype=object).ravel()
+    panels = np.asarray(ax, dtype=object).ravel()
     if len(panels) != shape[0] * shape[1]:
         raise ValueError(f"this figure needs {shape[0] * shape[1]} axes, not {len(panels)}")
     return panels

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from saleg.plotting.cycle import NoCycle
+from saleg.plotting.cycle import NoCycle, titled
 from saleg.plotting.energy import FLOW_COLOURS, VISIBLE, balance_of, joules, visible_flows
 from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new
 
@@ -52,8 +52,8 @@ def energy_sankey(run: Run, ax: Axes | None = None) -> Axes:
     Raises
     ------
     NoCycle
-        If the run completed no full cycle after its first stroke, if that had no fresh fuel, or if
-        the alternator drove the engine in it.
+        If the run completed no full cycle after its first stroke, if that had no fresh fuel or its
+        balance does not close to 1 %, or if the alternator drove the engine in it.
     """
     balance = balance_of(run)
     delivered = (balance.electrical, balance.alternator_loss, balance.friction)
@@ -73,7 +73,7 @@ def energy_sankey(run: Run, ax: Axes | None = None) -> Axes:
     ax.set_xlim(-0.1, 5.5 * STEP)
     ax.set_ylim(lowest - 0.02, highest)
     ax.set_axis_off()
-    ax.set_title("Energy balance of a cycle", fontsize="medium")
+    ax.set_title(titled(run, "Energy balance of a cycle"), fontsize="medium")
     return ax
 
 

@@ -1,12 +1,14 @@
-"""Plots of the numerical studies of :mod:`saleg.studies`."""
+"""Figures of the numerical studies of :mod:`saleg.studies`."""
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.thesis_tables import TABLE_2
+from saleg.plotting.style import axes_or_new, finish
+from saleg.thesis_tables import TABLE_2, is_of_base_case
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -15,74 +17,76 @@ if TYPE_CHECKING:
 MARKERS = "osD^vPX*"
 
 
-def work_precision(table: pd.DataFrame, ax: Any = None) -> Axes:
-    """Error over right-hand sides evaluated, one line per method.
+def work_precision(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Draw error [-] over right-hand sides evaluated [-], one line per method.
 
     Parameters
     ----------
     table : DataFrame
         From :func:`saleg.studies.work_precision`.
-    ax : Axes, optional
-        A new figure's unless given.
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
 
     Returns
     -------
-    Axes
+    matplotlib.axes.Axes
     """
-    ax = _axes(ax)
-    for marker, (method, rows) in zip(MARKERS, table.groupby("method", sort=False), strict=False):
-        ax.loglog(rows["evaluations"], rows["error"], marker=marker, ms=5, lw=1.2, label=method)
+    ax = axes_or_new(ax)
+    for marker, (method, rows) in zip(
+        cycle(MARKERS), table.groupby("method", sort=False), strict=False
+    ):
+        ax.loglog(
+            rows["evaluations"], rows["error"], marker=marker, ms=5, lw=1.2, label=str(method)
+        )
     ax.set_xlabel("right-hand sides evaluated [-]")
     ax.set_ylabel("greatest relative error [-]")
-    ax.set_title("Work and precision")
-    ax.grid(True, which="major", alpha=0.3)
-    ax.legend(frameon=False, fontsize="small")
-    return ax
+    return finish(ax, "Work and precision", "best")
 
 
-def delay(table: pd.DataFrame, ax: Any = None) -> Axes:
-    """Efficiency over step for several delays of the gas force, beside Table 2 of the thesis.
+def delay(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Draw efficiency [%] over step [µs] for several delays of the gas force.
+
+    For the base case of the thesis, and for it alone, with the rows of its Table 2.
 
     Parameters
     ----------
     table : DataFrame
         From :func:`saleg.studies.delay_study`.
-    ax : Axes, optional
-        A new figure's unless given.
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
 
     Returns
     -------
-    Axes
+    matplotlib.axes.Axes
     """
-    ax = _axes(ax)
+    from matplotlib import colormaps
+
+    ax = axes_or_new(ax)
     ran = table[table["status"].isin(["steady", "completed"])]
-    shades = np.linspace(0.25, 0.85, ran["delay"].nunique())
-    for shade, (steps, rows) in zip(shades, ran.groupby("delay"), strict=True):
-        label = {"0": "no delay", "1": "1 step late"}.get(str(steps), f"{steps} steps late")
-        colour = (0.0, 0.45 * (1.0 - shade), shade)
-        ax.plot(1e6 * rows["step"], 100.0 * rows["efficiency"], ".-", color=colour, label=label)
-    printed = {step: row for step, row in TABLE_2.items() if step <= ran["step"].max() * 1.001}
+    colours = colormaps["viridis"](np.linspace(0.0, 0.85, ran["delay"].nunique()))
+    for marker, colour, (steps, rows) in zip(
+        cycle(MARKERS), colours, ran.groupby("delay"), strict=False
+    ):
+        label = {"0": "no delay", "1": "1 step late"}.get(f"{steps:g}", f"{steps:g} steps late")
+        look: dict[str, Any] = {"color": tuple(colour), "marker": marker, "ms": 4, "lw": 1.2}
+        ax.plot(1e6 * rows["step"], 100.0 * rows["efficiency"], label=label, **look)
+    if is_of_base_case(table):
+        _draw_table_2(ax, float(ran["step"].max()))
+    ax.set_xlabel("fixed step [µs]")
+    ax.set_ylabel("efficiency [%]")
+    return finish(ax, "Cylinder blocks that lag behind", "best")
+
+
+def _draw_table_2(ax: Axes, longest: float) -> None:
+    """Rings where Table 2 of the thesis has steps no longer than the longest that ran [s]."""
+    printed = [(step, row) for step, row in TABLE_2.items() if step <= longest * 1.001]
     ax.plot(
-        [1e6 * step for step in printed],
-        [100.0 * row["efficiency"] for row in printed.values()],
+        [1e6 * step for step, _ in printed],
+        [100.0 * row["efficiency"] for _, row in printed],
         "o",
         mfc="none",
-        mec="#d55e00",
+        mec="#D55E00",
         ms=9,
         mew=1.8,
         label="thesis, Table 2",
     )
-    ax.set_xlabel("fixed step [us]")
-    ax.set_ylabel("efficiency [%]")
-    ax.set_title("Cylinder blocks that lag behind")
-    ax.grid(True, alpha=0.3)
-    ax.legend(frameon=False, fontsize="small")
-    return ax
-
-
-def _axes(ax: Any) -> Any:
-    if ax is not None:
-        return ax
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(6.0, 4.5), layout="constrained").subplots()

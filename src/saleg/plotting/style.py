@@ -96,6 +96,11 @@ def zero_lines(ax: Axes, *, x: bool = False, y: bool = False) -> None:
         ax.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
 
 
+def from_zero(ax: Axes) -> None:
+    """Let the upward axis run from zero to above all that is drawn."""
+    ax.set_ylim(0.0, 1.05 * ax.dataLim.ymax)
+
+
 def finish(ax: Axes, title: str, legend: str | None, columns: int = 1) -> Axes:
     """Title, grid, frame and legend; the legend ``"below"`` stands under the axes."""
     ax.set_title(title, fontsize="medium")

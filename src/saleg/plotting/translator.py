@@ -15,7 +15,9 @@ from saleg.plotting.cycle import (
     Cycle,
     NoCycle,
     draw_translator,
+    figure_of_cycle,
     last_cycle,
+    time_axis,
 )
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
@@ -26,6 +28,7 @@ from saleg.plotting.style import (
     TRANSLATOR_COLOUR,
     axes_or_new,
     finish,
+    from_zero,
     zero_lines,
 )
 
@@ -35,80 +38,30 @@ if TYPE_CHECKING:
     from saleg.results import Run
 
 
-def velocity_position(run: Run, ax: Axes | None = None) -> Axes:
-    """Draw velocity [m/s] over position [mm] of the translator (Figure 36 of the thesis).
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
-    """
-    cycle = last_cycle(run)
-    ax = axes_or_new(ax)
+@figure_of_cycle
+def velocity_position(cycle: Cycle, ax: Axes) -> Axes:
+    """Draw velocity [m/s] over position [mm] of the translator (Figure 36 of the thesis)."""
     zero_lines(ax, x=True, y=True)
     draw_translator(ax, cycle, POSITION, VELOCITY)
-    return finish(ax, cycle.titled("Velocity and position"), "center")
+    return finish(ax, cycle.titled("Velocity and position"), _at_centre(cycle))
 
 
-def acceleration_velocity(run: Run, ax: Axes | None = None) -> Axes:
-    """Draw acceleration [km/s^2] over velocity [m/s] of the translator (Figure 37 of the thesis).
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
-    """
-    cycle = last_cycle(run)
-    ax = axes_or_new(ax)
+@figure_of_cycle
+def acceleration_velocity(cycle: Cycle, ax: Axes) -> Axes:
+    """Draw acceleration [km/s^2] over velocity [m/s] (Figure 37 of the thesis)."""
     zero_lines(ax, x=True, y=True)
     draw_translator(ax, cycle, VELOCITY, ACCELERATION)
-    return finish(ax, cycle.titled("Acceleration and velocity"), "center")
+    return finish(ax, cycle.titled("Acceleration and velocity"), _at_centre(cycle))
 
 
-def forces(run: Run, ax: Axes | None = None) -> Axes:
+@figure_of_cycle
+def forces(cycle: Cycle, ax: Axes) -> Axes:
     """Draw the forces on the translator [kN], positive to the right, over time [ms].
 
     Pressure of the gas on either crown, springs, friction and alternator; their sum is mass times
     acceleration, drawn as inertia (Figure 93 of the thesis).
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
-    cycle = last_cycle(run)
-    ax = axes_or_new(ax, height=4.8)
-    history, engine = cycle.history, run.engine
+    history, engine = cycle.history, cycle.run.engine
     left, right = (math.pi * chamber.bore**2 / 4.0 for chamber in engine.chambers)
     time = cycle(TIME)
     zero_lines(ax, y=True)
@@ -126,32 +79,14 @@ def forces(run: Run, ax: Axes | None = None) -> Axes:
         ),
     ):
         ax.plot(time, 1e-3 * force.to_numpy(), color=colour, linestyle=line, label=label)
-    ax.set_xlim(0.0, TIME.scale * cycle.period)
-    ax.set_xlabel(TIME.label)
+    time_axis(ax, cycle)
     ax.set_ylabel("force to the right [kN]")
     return finish(ax, cycle.titled("Forces on the translator"), "below", columns=3)
 
 
-def power(run: Run, ax: Axes | None = None) -> Axes:
-    """Draw electrical power [kW] over time [ms], with its mean and RMS (Figure 40 of the thesis).
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
-    """
-    cycle = last_cycle(run)
-    ax = axes_or_new(ax)
+@figure_of_cycle
+def power(cycle: Cycle, ax: Axes) -> Axes:
+    """Draw electrical power [kW] over time [ms], its mean and RMS (Figure 40 of the thesis)."""
     strokes, period = cycle.strokes, cycle.period
     mean = 1e-3 * float(strokes["electrical_energy"].sum()) / period
     rms = 1e-3 * math.sqrt(float(strokes["electrical_squared"].sum()) / period)
@@ -161,11 +96,10 @@ def power(run: Run, ax: Axes | None = None) -> Axes:
     ax.axhline(
         rms, color=TRANSLATOR_COLOUR, linewidth=1.2, linestyle="--", label=f"RMS {rms:.4g} kW"
     )
-    if instant.min() >= 0.0:
-        ax.set_ylim(bottom=0.0)
+    if instant.min() >= 0.0 and instant.max() > 0.0:
+        from_zero(ax)
     zero_lines(ax, y=True)
-    ax.set_xlim(0.0, TIME.scale * period)
-    ax.set_xlabel(TIME.label)
+    time_axis(ax, cycle)
     ax.set_ylabel("electrical power [kW]")
     return finish(ax, cycle.titled("Electrical power"), "below", columns=3)
 
@@ -209,10 +143,14 @@ def efficiency(run: Run, ax: Axes | None = None, *, cycles: int = 10) -> Axes:
     ax.plot(cycle(TIME), running, color=ALTERNATOR_COLOUR, linewidth=1.6, label=label)
     label = f"efficiency of the cycle {mean:.4g} %"
     ax.axhline(mean, color=TRANSLATOR_COLOUR, linewidth=1.2, label=label)
-    ax.set_xlim(0.0, TIME.scale * cycle.period)
-    ax.set_xlabel(TIME.label)
+    time_axis(ax, cycle)
     ax.set_ylabel("efficiency [%]")
     return finish(ax, cycle.titled("Efficiency"), "below", columns=2)
+
+
+def _at_centre(cycle: Cycle) -> str | None:
+    """The legend of the events stands inside the loop; without events it would be empty."""
+    return "center" if len(cycle.marked) else None
 
 
 def _running_efficiency(cycle: Cycle, cycles: int) -> np.ndarray:

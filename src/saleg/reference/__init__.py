@@ -13,6 +13,7 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
+from saleg.kernel.compose import needs_motored_pressure
 from saleg.kernel.plain_rhs import VELOCITY
 from saleg.prepare import State
 from saleg.reference.books import RunningEngine
@@ -85,7 +86,7 @@ def simulate(
     True
     """
     engine.validate()
-    running = RunningEngine.started(engine, motored_pressure)
+    running = RunningEngine.started(engine, motored_pressure or needs_motored_pressure(engine))
     speed = natural_speed(running)
     method = Solver(
         method=solver,

@@ -77,9 +77,11 @@ class ChamberState:
     mode : float
         Open, closed or burning.
     armed : float
-        1 if the charge may ignite.
+        Whether the charge may ignite, as the layout has it.
     t_ignition, duration, heat : float
         Of the combustion: start and duration [s], heat if all that can burn does [J].
+    number : float
+        How many charges have been composed.
     """
 
     sign: float
@@ -101,6 +103,7 @@ class ChamberState:
     t_ignition: float = 0.0
     duration: float = 1.0
     heat: float = 0.0
+    number: float = 0.0
 
 
 @dataclass
@@ -233,7 +236,7 @@ class RunningEngine:
         if c.mode != layout.BURNING:
             return 0.0
         assert isinstance(chamber, Cylinder)
-        u = min((self.t - c.t_ignition) / c.duration, 1.0)
+        u = min((self.t - c.t_ignition) / c.duration, 1.0) if c.duration > 0.0 else 1.0
         share = chamber.heat_release.burnt_fraction(u)
         return share * c.heat / chamber.fuel.lower_heating_value
 
@@ -254,8 +257,8 @@ class RunningEngine:
         """Carry out one change that is due; whether there was one."""
         due = {
             layout.EVENT_END_OF_COMBUSTION: (self._has_burnt, self.end_combustion),
-            layout.EVENT_MISFIRE: (self._has_misfired, self.misfire),
             layout.EVENT_IGNITION: (self._is_lit, self.ignite),
+            layout.EVENT_MISFIRE: (self._has_misfired, self.misfire),
             layout.EVENT_PORT_CLOSING: (self._is_closing, self.close_ports),
             layout.EVENT_PORT_OPENING: (self._is_opening, self.open_ports),
         }
@@ -275,10 +278,16 @@ class RunningEngine:
         return c.mode == layout.BURNING and self.t >= c.t_ignition + c.duration
 
     def _has_misfired(self, side: int) -> bool:
-        return self.chambers[side].armed == 1.0 and self.is_expanding(side)
+        due = self.chambers[side].armed in (layout.ARMED, layout.FAILING)
+        return due and self.is_expanding(side)
 
     def _is_lit(self, side: int) -> bool:
-        return self.chambers[side].armed == 1.0 and bool(self.y[INTEGRAL + side] >= 1.0)
+        armed, chamber = self.chambers[side].armed, self.engine.chambers[side]
+        if armed == layout.ARMED and self.is_expanding(side):  # a dead centre has been passed
+            assert isinstance(chamber, Cylinder)
+            charge = charge_in(self.machine, self.chambers, side)
+            return chamber.ignition.lights_at_dead_centre(charge) > 0.0
+        return armed > layout.DISARMED and bool(self.y[INTEGRAL + side] >= 1.0)
 
     def _is_closing(self, side: int) -> bool:
         reached = self.beyond_port(side) <= SLACK * self.chambers[side].half_stroke
@@ -290,9 +299,14 @@ class RunningEngine:
         return self.chambers[side].mode != layout.OPEN and self.is_expanding(side) and reached
 
     def misfire(self, side: int) -> None:
-        """The piston has turned before the charge lit: it no longer may."""
-        self.chambers[side].armed = 0.0
-        self.y[INTEGRAL + side] = 0.0
+        """The piston has turned before the charge lit: it no longer may, or only late."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, Cylinder)
+        if c.armed == layout.ARMED and chamber.late_ignition > 0.0:
+            c.armed = layout.LATE
+        else:
+            c.armed = layout.DISARMED
+            self.y[INTEGRAL + side] = 0.0
 
     def ignite(self, side: int) -> None:
         """Begin to release the heat of what fuel and air can burn."""
@@ -307,6 +321,22 @@ class RunningEngine:
         self.books[side].ignition_time = self.t
         self.books[side].ignition_height = self.height(side)
         self.books[side].combustion_duration = c.duration
+        if c.duration <= 0.0:
+            self.burn_at_once(side)
+            self.end_combustion(side)
+
+    def burn_at_once(self, side: int) -> None:
+        """Release all heat at constant volume: the temperature rises by as much as it takes."""
+        from scipy.optimize import brentq
+
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, Cylinder)
+        heat = c.heat * chamber.heat_release.burnt_fraction(1.0)
+        energy, T = chamber.gas_properties.internal_energy, self.gas(side).T
+        wanted = energy(T) + heat / c.mass
+        hottest = T + (wanted - energy(T)) / c.gas_constant
+        self.y[PRESSURE + side] *= brentq(lambda hot: energy(hot) - wanted, T, hottest) / T
+        self.y[QUADRATURES + layout.HEAT_RELEASED + side] += heat
 
     def end_combustion(self, side: int) -> None:
         """Turn fuel and stoichiometric air into burnt gas, as far as they have burnt."""
@@ -343,7 +373,10 @@ class RunningEngine:
         )
         c.equivalence_ratio = ratio * c.fuel / c.air if c.fuel > 0.0 else 0.0
         c.p_closing, c.T_closing, c.V_closing = p, T, volume
-        c.mode, c.armed = layout.CLOSED, float(c.fuel > 0.0)
+        c.number += 1.0
+        c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
+        if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:
+            c.armed = layout.FAILING
         self.y[INTEGRAL + side] = 0.0
         self.y[[PRESSURE + side, MOTORED_PRESSURE + side]] = p
         exhausted = fuel_before + fresh - c.fuel

@@ -12,8 +12,17 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
-from saleg.kernel.plain_rhs import INTEGRAL, POSITION, PRESSURE, QUADRATURES, VELOCITY, rates
+from saleg.kernel.plain_rhs import (
+    ALTERNATOR_CURRENT,
+    INTEGRAL,
+    POSITION,
+    PRESSURE,
+    QUADRATURES,
+    VELOCITY,
+    rates,
+)
 from saleg.laws.arguments import Motion
+from saleg.prepare import current_scale
 from saleg.reference.books import ChamberState, EngineState, RunningEngine
 
 Rates = Callable[[float, np.ndarray], np.ndarray]
@@ -122,6 +131,7 @@ def scales(running: RunningEngine, speed: float) -> np.ndarray:
     scale[POSITION], scale[VELOCITY] = length, speed
     scale[PRESSURE:QUADRATURES] = energy / (length * running.piston_area)
     scale[INTEGRAL : INTEGRAL + 2] = 1.0
+    scale[ALTERNATOR_CURRENT] = current_scale(running.engine, running.machine.load_weight, speed)
     scale[QUADRATURES + layout.ELECTRICAL_SQUARED] = energy**2 / time
     scale[QUADRATURES + layout.ALTERNATOR_IMPULSE] = running.machine.mass * speed
     scale[QUADRATURES + layout.SPEED_SQUARED] = speed**2 * time
@@ -174,7 +184,7 @@ def possible_events(running: RunningEngine) -> list[Event]:
         is_open = c.mode == layout.OPEN
         if port is not None and is_open != running.is_expanding(side):
             events.append(Event(_beyond(c, port), -1.0 if is_open else 1.0, "port", side))
-        if c.armed == 1.0:
+        if c.armed > layout.DISARMED:
             events.append(Event(_unlit(side), 1.0, "ignition", side))
         if not is_open and not running.is_expanding(side):
             events.append(Event(_beyond(c, chamber.head_gap), -1.0, "head", side))
