@@ -11,8 +11,8 @@ class SalegError(Exception):
     """Base of all errors that are the user's to mend."""
 
 
-class InvalidEngine(SalegError, ValueError):
-    """An engine with fields out of range; `problems` lists them all.
+class WrongFields(SalegError, ValueError):
+    """Fields out of range; `problems` lists them all.
 
     Attributes
     ----------
@@ -20,15 +20,31 @@ class InvalidEngine(SalegError, ValueError):
         Path, value, unit and allowed range of every wrong field.
     """
 
+    #: What the fields belong to.
+    whole = "input"
+
     def __init__(self, problems: Iterable[Problem]):
         self.problems = list(problems)
         count = len(self.problems)
         lines = "\n".join(f"  {problem}" for problem in self.problems)
-        super().__init__(f"{count} wrong field{'s' if count > 1 else ''} in the engine:\n{lines}")
+        plural = "s" if count > 1 else ""
+        super().__init__(f"{count} wrong field{plural} in the {self.whole}:\n{lines}")
 
-    def __reduce__(self) -> tuple[type[InvalidEngine], tuple[list[Problem]]]:
+    def __reduce__(self) -> tuple[type[WrongFields], tuple[list[Problem]]]:
         """Pickle by the problems, not by their text."""
         return type(self), (self.problems,)
+
+
+class InvalidEngine(WrongFields):
+    """An engine with fields out of range; `problems` lists them all."""
+
+    whole = "engine"
+
+
+class OutsideModel(WrongFields):
+    """Quantities for which the fundamental model of Chapter 2 says nothing."""
+
+    whole = "fundamental model"
 
 
 class UnknownPath(SalegError, KeyError):
