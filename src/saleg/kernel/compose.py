@@ -156,7 +156,7 @@ def parameters(engine: Engine) -> np.ndarray:
 
 
 @lru_cache(maxsize=256)
-def _names(law: type[Law]) -> tuple[str, ...]:
+def _names(law: Any) -> tuple[str, ...]:
     return tuple(item.name for item in dataclasses.fields(law))  # type: ignore[arg-type]
 
 
@@ -166,7 +166,7 @@ def record_of(law: Law) -> np.dtype:
 
 
 @lru_cache(maxsize=256)
-def _record(law: type[Law], lengths: Lengths) -> np.dtype:
+def _record(law: Any, lengths: Lengths) -> np.dtype:
     long = dict(lengths)
     items = [
         (name, np.float64, (long[name],)) if name in long else (name, np.float64)
