@@ -11,6 +11,7 @@ from saleg.performance import EnergyBalance, Performance
 from saleg.results import Run
 from saleg.simulate import simulate
 from saleg.status import Status
+from saleg.steady import SteadyState, steady_state
 from saleg.version import __version__
 
 __all__ = [
@@ -27,12 +28,14 @@ __all__ = [
     "Run",
     "SalegError",
     "Status",
+    "SteadyState",
     "Translator",
     "UnknownPath",
     "__version__",
     "laws",
     "machines",
     "simulate",
+    "steady_state",
 ]
 
 

@@ -40,6 +40,11 @@ class State:
     y: np.ndarray
     peaks: np.ndarray
 
+    def copy(self) -> State:
+        """Another state of the same numbers, peaks forgotten."""
+        parts = (self.engine.copy(), self.chambers.copy(), self.y.copy())
+        return State(*parts, np.zeros(layout.N_PEAKS))
+
 
 def prepare(engine: Engine) -> State:
     """State of an engine at the beginning of a run, as its start law has it.

@@ -203,7 +203,7 @@ def _drive(
     """Call the kernel until it is done; returns why it stopped."""
     method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
     order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
-    work = _work_space(len(method.b))
+    work = work_space(len(method.b))
     with _progress(settings.duration) as bar:
         while True:
             before = float(state.engine["t"][0])
@@ -249,10 +249,11 @@ def options_record(settings: Settings, t_end: float) -> np.ndarray:
     return options
 
 
-def _work_space(stages: int) -> tuple[Any, ...]:
-    """Scratch arrays of the integrator: rates of the stages, new state, and the same to spare."""
+def work_space(stages: int) -> tuple[Any, ...]:
+    """Scratch arrays of the integrator: rates of the stages, new state, and more to spare."""
     n = layout.N_ALL
-    spare = (np.zeros(n), np.zeros(n), np.zeros((stages + 1, n)), np.zeros(n))
+    trail = np.zeros(layout.N_PEAKS + 1)
+    spare = (np.zeros(n), np.zeros(n), np.zeros((stages + 1, n)), np.zeros(n), trail)
     return np.zeros((stages + 1, n)), np.zeros(n), spare
 
 

@@ -11,6 +11,7 @@ class Status(enum.Enum):
     COMPLETED = "completed"
     STEADY = "steady"
     IDLING = "idling"
+    UNSTEADY = "unsteady"
     STALLED = "stalled"
     HEAD_CONTACT = "head contact"
     STEP_FAILURE = "step failure"

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 PACKAGE = Path(__file__).resolve().parent.parent
 BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py")
-INTEGRATOR = ("rhs", "step", "events", "peaks", "switch", "observe", "integrate")
+INTEGRATOR = ("rhs", "step", "events", "peaks", "switch", "observe", "integrate", "orbit")
 
 #: What fills the combustion slots of a bounce chamber; never called, since it never lights.
 IDLE_LAWS: dict[str, Law] = {
@@ -147,12 +147,25 @@ def _is_ours(law: type[Law]) -> bool:
 
 def parameters(engine: Engine) -> np.ndarray:
     """All numbers of an engine's laws as an array of one record."""
-    laws = laws_of(engine)
-    places = [(side, [(name, record_of(law)) for name, law in laws[side].items()]) for side in laws]
-    dtype = np.dtype([*places[:2], *places[2][1]])
-    values = [tuple(values_of(law) for law in laws[side].values()) for side in ("left", "right")]
-    rest = [values_of(law) for law in laws["engine"].values()]
-    return np.array([(*values, *rest)], dtype=dtype)
+    laws = [law for place in laws_of(engine).values() for law in place.values()]
+    flat = [
+        number
+        for law in laws
+        for value in values_of(law)
+        for number in (value if isinstance(value, (tuple, list)) else (value,))
+    ]
+    record = _record_of_all(tuple(type(law) for law in laws), tuple(map(_lengths, laws)))
+    return np.array(flat, np.float64).view(record)
+
+
+@lru_cache(maxsize=256)
+def _record_of_all(classes: tuple[Any, ...], lengths: tuple[Lengths, ...]) -> np.dtype:
+    """Record of all laws: left and right hold a record for each slot, the engine's follow."""
+    records = [_record(law, length) for law, length in zip(classes, lengths, strict=True)]
+    n = len(CHAMBER_SLOTS)
+    sides = [list(zip(CHAMBER_SLOTS, records[i : i + n], strict=True)) for i in (0, n)]
+    rest = list(zip(ENGINE_SLOTS, records[2 * n :], strict=True))
+    return np.dtype([("left", sides[0]), ("right", sides[1]), *rest])
 
 
 @lru_cache(maxsize=256)

@@ -24,6 +24,7 @@ from saleg.kernel.layout import (
     HEAD_CONTACT,
     MOST_STEPS,
     N_ALL,
+    N_PEAKS,
     PEAK_PRESSURE,
     STALLED,
     STEP_FAILURE,
@@ -158,7 +159,7 @@ def accept(E, O, h, full, end, y, y_new, k, stages):
 def observe_within(P, E, C, O, tableau, h, y, k, spare, history, filled):
     """Record instants within a step, each reached by a shorter step of the same method."""
     stages = tableau[1].shape[0]
-    _, _, spare_k, inner = spare
+    _, _, spare_k, inner, _ = spare
     t = E.t
     for i in range(1, O.dense + 1):
         part = h * i / (O.dense + 1.0)
@@ -193,6 +194,7 @@ def run_on(
     P, E, O = P1[0], E1[0], O1[0]
     stages = tableau[1].shape[0]
     k, y_new, spare = work
+    spare[4][N_PEAKS] = 0.0
     last_step = E.steps + O.max_steps
     refresh(P, E, C)
     switch(P, E, C, O, y, -1, peaks, strokes, events, filled)  # what is due at the start
@@ -226,6 +228,7 @@ def run_on(
             observe(P, E, C, y, k[0], O.motored, history[filled[2]])
             filled[2] += 1
         if switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
+            spare[4][N_PEAKS] = 0.0
             rhs(P, E, C, E.t, y, k[0], O.motored)
             E.evaluations += 1.0
             watch_point(C, y, k[0], peaks)

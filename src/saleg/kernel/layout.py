@@ -43,6 +43,10 @@ PORT_WORK = 12
 N_QUADRATURES = 14
 N_ALL = N_STATE + N_QUADRATURES
 
+# Length of the vector a state at a dead centre is written as (see kernel/orbit.py).
+VECTOR_PER_SIDE = 11
+N_VECTOR = 8 + 2 * VECTOR_PER_SIDE
+
 # Quantities whose greatest value in a stroke is kept.
 PEAK_PRESSURE = 0
 PEAK_TEMPERATURE = 2
@@ -58,6 +62,8 @@ STALLED = 2
 HEAD_CONTACT = 3
 STEP_FAILURE = 4
 TOO_MANY_STEPS = 5
+NO_DEAD_CENTRE = 6
+NOT_FOUND = 7
 # Steps of the adaptive method in one stroke beyond which an engine is too stiff for it.
 MOST_STEPS = 1_000_000.0
 
@@ -273,5 +279,6 @@ OPTIONS_RECORD = np.dtype(
         ("tolerance", np.float64),
         ("stall", np.float64),
         ("last_stroke", np.float64),
+        ("longest", np.float64),
     ]
 )

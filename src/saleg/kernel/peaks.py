@@ -26,6 +26,11 @@ from saleg.kernel.layout import (
 from saleg.kernel.rhs import height_of, rhs
 from saleg.kernel.step import take_step
 
+# Share of the greatest value so far below which both ends of a step promise no greater one within.
+PROMISING = 0.7
+# Slope, over the mean one of a step, that is surely of one sign though only estimated.
+CLEARLY = 0.3
+
 
 @inline
 def pressure_rate(C, side, y, dy):
@@ -118,11 +123,11 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
     are left to :func:`watch_point`.
     """
     last = tableau[1].shape[0]
+    if h <= 0.0:
+        return
     for peak in range(N_PEAKS):
-        if h <= 0.0:
-            return
         if is_costly(peak):
-            if O.peaks > 1:
+            if O.peaks > 1 and may_peak(C, peak, h, y, k[0], y_new, k[last], peaks, spare[4]):
                 approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
         elif is_passed(C, peak, y, k[0], y_new, k[last]):
             if O.peaks > 1:
@@ -134,6 +139,27 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
                     r0, r1 = r0 * q0, r1 * q1
                 top = cubic(q0, r0, q1, r1, h, top_of_cubic(q0, r0, q1, r1, h))
                 peaks[peak] = max(peaks[peak], q0, q1, top)
+    spare[4][N_PEAKS] = h
+
+
+@inline
+def may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, trail):
+    """Whether a quantity without a known rate may have a new peak within a step.
+
+    A guess from its values here and at the begin of the step before (in `trail`, whose last entry
+    is the length of that step, 0 if it does not lead up to this one); it costs no evaluation.
+    """
+    before, h_before = trail[peak], trail[N_PEAKS]
+    q0, q1 = watched(C, peak, y, dy), watched(C, peak, y_new, dy_new)
+    trail[peak] = q0
+    if max(q0, q1) <= PROMISING * peaks[peak]:
+        return False
+    if h_before <= 0.0:
+        return True
+    slope, slope_before = (q1 - q0) / h, (q0 - before) / h_before
+    at_begin = (slope_before * h + slope * h_before) / (h + h_before)
+    at_end = slope + (slope - at_begin)
+    return at_begin > -CLEARLY * abs(slope) and at_end < CLEARLY * abs(slope)
 
 
 @compiled
@@ -151,7 +177,7 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
     """Locate a peak within a step by a shorter step of the same method, and a cubic from there."""
     t, motored = E.t, O.motored
     last = tableau[1].shape[0]
-    spare_y, spare_dy, spare_k, inner = spare
+    spare_y, spare_dy, spare_k, inner, _ = spare
     q0, r0 = value_and_rate(P, E, C, peak, t, y, k[0], spare_y, spare_dy, motored)
     if r0 <= 0.0:
         return

@@ -1,0 +1,285 @@
+"""The return map from dead centre to dead centre, and its fixed points.
+
+What an engine will do is settled by its state at a dead centre. Written as a vector of
+dimensionless numbers it can be compared, extrapolated and put back. A mirrored engine repeats
+itself, seen in the mirror, after half a cycle.
+"""
+
+from math import exp, inf, isfinite, log
+
+from saleg.kernel.integrate import keep_snapshot, run_on
+from saleg.kernel.jit import cached, compiled, inline
+from saleg.kernel.layout import (
+    BURNING,
+    CURRENT,
+    END_OF_TIME,
+    IGNITION,
+    MOTORED,
+    N_VECTOR,
+    NO_DEAD_CENTRE,
+    NOT_FOUND,
+    OPEN,
+    THETA,
+    VECTOR_PER_SIDE,
+    V,
+    X,
+)
+from saleg.kernel.switch import begin_stroke
+
+# Half cycles of plain iteration before extrapolation begins, and how far it may go at once.
+WARM_UP = 2
+FARTHEST = 0.5
+# Entries of the vector: first those of the engine, then per side.
+POSITION = 0
+LN_SPEED = 1
+WEIGHT = 2
+FRICTION = 3
+STROKE = 4
+FUEL_ENERGY = 5
+SPEED_SQUARED = 6
+AMPERES = 7
+CHAMBERS = 8
+LN_PRESSURE = 0
+INTEGRAL = 1
+LN_MOTORED = 2
+LN_MASS = 3
+FUEL = 4
+AIR = 5
+BURNT = 6
+RATIO = 7
+BURN_PHASE = 8
+LN_DURATION = 9
+TO_BURN = 10
+
+
+@compiled
+def write_vector(E, C, y, z):
+    """State at a dead centre as a vector of numbers of the order of one."""
+    z[POSITION] = y[X] / E.length_scale
+    z[LN_SPEED] = log(max(E.mean_piston_speed, 1e-300))
+    z[WEIGHT] = E.load_weight
+    z[FRICTION] = E.friction_held
+    z[STROKE] = E.stroke / E.length_scale
+    z[FUEL_ENERGY] = E.last_fuel_energy / (E.mass * E.speed_scale**2)
+    z[SPEED_SQUARED] = E.last_speed_squared / (E.speed_scale * E.length_scale)
+    z[AMPERES] = y[CURRENT] / E.current_scale
+    for side in range(2):
+        c = C[side]
+        first = CHAMBERS + VECTOR_PER_SIDE * side
+        closed = c.mode != OPEN
+        z[first + LN_PRESSURE] = y[THETA + side] if closed else 0.0
+        z[first + INTEGRAL] = y[IGNITION + side] if closed else 0.0
+        z[first + LN_MOTORED] = y[MOTORED + side] if closed else 0.0
+        z[first + LN_MASS] = log(c.mass)
+        z[first + FUEL] = c.fuel / c.mass
+        z[first + AIR] = c.air / c.mass
+        z[first + BURNT] = c.burnt / c.mass
+        z[first + RATIO] = c.equivalence_ratio
+        burning = c.mode == BURNING
+        z[first + BURN_PHASE] = (E.t - c.t_ignition) / c.duration if burning else 0.0
+        z[first + LN_DURATION] = log(c.duration) if burning else 0.0
+        z[first + TO_BURN] = c.fuel_to_burn / c.mass if burning else 0.0
+
+
+@compiled
+def read_vector(E, C, y, z):
+    """Put a vector back; modes, and all that a vector does not say, stay as they are."""
+    y[X] = z[POSITION] * E.length_scale
+    y[V] = 0.0
+    E.x_dead_centre = y[X]
+    E.t_dead_centre = E.t
+    E.mean_piston_speed = exp(z[LN_SPEED])
+    E.load_weight = z[WEIGHT]
+    E.friction_held = z[FRICTION]
+    E.stroke = z[STROKE] * E.length_scale
+    E.last_fuel_energy = z[FUEL_ENERGY] * (E.mass * E.speed_scale**2)
+    E.last_speed_squared = z[SPEED_SQUARED] * (E.speed_scale * E.length_scale)
+    y[CURRENT] = z[AMPERES] * E.current_scale
+    for side in range(2):
+        c = C[side]
+        first = CHAMBERS + VECTOR_PER_SIDE * side
+        c.mass = exp(z[first + LN_MASS])
+        c.fuel = max(z[first + FUEL], 0.0) * c.mass
+        c.air = max(z[first + AIR], 0.0) * c.mass
+        c.burnt = max(z[first + BURNT], 0.0) * c.mass
+        c.equivalence_ratio = z[first + RATIO]
+        if c.mode == OPEN:
+            continue
+        y[THETA + side] = z[first + LN_PRESSURE]
+        y[IGNITION + side] = z[first + INTEGRAL]
+        y[MOTORED + side] = z[first + LN_MOTORED]
+        if c.mode == BURNING:
+            c.duration = exp(z[first + LN_DURATION])
+            phase = min(max(z[first + BURN_PHASE], 0.0), 1.0)
+            c.t_ignition = E.t - phase * c.duration
+            c.t_end = c.t_ignition + c.duration
+            c.fuel_to_burn = z[first + TO_BURN] * c.mass
+
+
+@compiled
+def mirror(E, C, y, spare_chamber):
+    """Exchange left and right, so that a right dead centre becomes a left one."""
+    spare_chamber[0] = C[0]
+    C[0] = C[1]
+    C[1] = spare_chamber[0]
+    C[0].sign, C[1].sign = 1.0, -1.0
+    for first in (THETA, IGNITION, MOTORED):
+        y[first], y[first + 1] = y[first + 1], y[first]
+    y[X], y[V], y[CURRENT] = -y[X], -y[V], -y[CURRENT]
+    E.x_dead_centre = -E.x_dead_centre
+    E.direction = -E.direction
+
+
+@inline
+def same_modes(C, modes):
+    """Whether both chambers are in the modes kept, which are brought up to date."""
+    same = True
+    for side in range(2):
+        same = same and modes[side] == C[side].mode
+        modes[side] = C[side].mode
+    return same
+
+
+@compiled
+def distance(a, b):
+    """Greatest difference of two vectors."""
+    worst = 0.0
+    for n in range(N_VECTOR):
+        worst = max(worst, abs(a[n] - b[n])) if isfinite(a[n] - b[n]) else inf
+    return worst
+
+
+@compiled
+def next_return(run, strokes_per_map, mirrored):
+    """Go on to the dead centre at which the map is taken; returns why the integrator came back."""
+    P1, E1, C, y, peaks, tableau, order, O1, rows, events, history, filled, snapshot, work, one = (
+        run
+    )
+    E, O = E1[0], O1[0]
+    wanted = E.strokes + strokes_per_map
+    O.last_stroke = wanted
+    O.t_end = E.t + O.longest
+    filled[0] = 0
+    filled[1] = 0
+    code = run_on(
+        P1, E1, C, y, peaks, tableau, order, O1, rows, events, history, filled, snapshot, work
+    )
+    if code == END_OF_TIME and E.strokes < wanted:
+        return NO_DEAD_CENTRE
+    if mirrored and code == END_OF_TIME:
+        mirror(E, C, y, one)
+    return code
+
+
+@compiled
+def extrapolate(z, f, z_old, f_old, depth, target):
+    """Anderson's step: the mixture of the latest images whose residuals cancel best.
+
+    `z` and `f` are the present point and residual, the rows of `z_old` and `f_old` those before,
+    the latest first. Writes the next point into `target`; returns whether it is near enough to
+    trust.
+    """
+    a11, a12, a22, b1, b2 = 0.0, 0.0, 0.0, 0.0, 0.0
+    for n in range(N_VECTOR):
+        d1 = f[n] - f_old[0, n]
+        d2 = f[n] - f_old[1, n] if depth > 1 else 0.0
+        a11 += d1 * d1
+        a12 += d1 * d2
+        a22 += d2 * d2
+        b1 += d1 * f[n]
+        b2 += d2 * f[n]
+    determinant = a11 * a22 - a12 * a12
+    w1, w2 = b1 / a11 if a11 > 0.0 else 0.0, 0.0
+    if determinant > 1e-10 * a11 * a22:
+        w1 = (b1 * a22 - b2 * a12) / determinant
+        w2 = (b2 * a11 - b1 * a12) / determinant
+    farthest = 0.0
+    for n in range(N_VECTOR):
+        image = z[n] + f[n]
+        step = w1 * (image - z_old[0, n] - f_old[0, n])
+        if depth > 1:
+            step += w2 * (image - z_old[1, n] - f_old[1, n])
+        target[n] = image - step
+        farthest = max(farthest, abs(step))
+    return farthest <= FARTHEST
+
+
+@compiled
+def push(z, f, z_old, f_old):
+    """Remember a point and its residual as the latest."""
+    for n in range(N_VECTOR):
+        z_old[1, n], f_old[1, n] = z_old[0, n], f_old[0, n]
+        z_old[0, n], f_old[0, n] = z[n], f[n]
+
+
+@compiled
+def verified(run, vectors, found):
+    """Take one whole cycle from the present state, all peaks located, as the record of the orbit.
+
+    A state that repeats itself in the mirror must repeat itself without. The state at its begin
+    goes into the snapshot; `found[2]` is how far the cycle misses it.
+    """
+    z, image = vectors[0], vectors[2]
+    E1, C, y, snapshot, O = run[1], run[2], run[3], run[12], run[7][0]
+    write_vector(E1[0], C, y, z)
+    keep_snapshot(E1, C, y, snapshot)
+    begin_stroke(E1[0], C, y, run[4])
+    O.peaks = 2
+    code = next_return(run, 2.0, False)
+    O.peaks = 0
+    write_vector(E1[0], C, y, image)
+    found[2] = distance(image, z)
+    return code
+
+
+@cached
+def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, found):
+    """Iterate and extrapolate the return map until a state returns to itself; take one cycle then.
+
+    On return the records of `run` hold the state at the last dead centre and the rows of the
+    cycle. `found` is (maps taken, residual of the map, residual of the cycle). Returns the code of
+    the integrator, or that nothing was found in `most` maps.
+    """
+    z, f, image, z_old, f_old = vectors
+    E1, C, y = run[1], run[2], run[3]
+    E = E1[0]
+    write_vector(E, C, y, z)
+    same_modes(C, modes)
+    known = 0
+    for count in range(most):
+        code = next_return(run, strokes_per_map, mirrored)
+        if code != END_OF_TIME:
+            return code
+        found[0] += 1.0
+        write_vector(E, C, y, image)
+        alike = same_modes(C, modes)
+        found[1] = distance(image, z)
+        if alike and found[1] <= tolerance:
+            return verified(run, vectors, found)
+        if not alike:
+            known = 0
+        for n in range(N_VECTOR):
+            f[n] = image[n] - z[n]
+        trusted = known > 0 and count >= WARM_UP
+        trusted = trusted and extrapolate(z, f, z_old, f_old, min(known, 2), image)
+        if alike:
+            push(z, f, z_old, f_old)
+            known += 1
+        if trusted:
+            for n in range(N_VECTOR):
+                z[n] = image[n]
+            read_vector(E, C, y, z)
+        else:
+            write_vector(E, C, y, z)
+    return NOT_FOUND
+
+
+@cached
+def image_of(run, strokes_per_map, mirrored, z, image):
+    """Image of a vector under the return map; the modes are those of the records."""
+    E1, C, y = run[1], run[2], run[3]
+    read_vector(E1[0], C, y, z)
+    begin_stroke(E1[0], C, y, run[4])
+    code = next_return(run, strokes_per_map, mirrored)
+    write_vector(E1[0], C, y, image)
+    return code

@@ -1,0 +1,242 @@
+"""The return map of an engine: from one dead centre to the next alike."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.kernel import layout, tableaus
+from saleg.kernel.compose import Kernel, kernel_for, needs_motored_pressure, parameters
+from saleg.kernel.orbit import AMPERES, write_vector
+from saleg.laws import NoMisfires
+from saleg.laws.arguments import Motion
+from saleg.laws.base import Alternator
+from saleg.prepare import State
+from saleg.simulate import Settings, options_record, work_space
+
+#: Longest time to the next return, over the natural time of half a stroke.
+LONGEST = 200.0
+#: Positions, velocities and currents, over their natural sizes, at which the laws of motion are
+#: compared with their mirror images.
+PROBES = ((0.31, 0.77, 0.6), (0.83, -0.41, -0.9), (0.05, 0.21, 0.2))
+#: Difference of a central difference, over the numbers of order one in a vector.
+DIFFERENCE = 1e-5
+
+
+class NoReturn(Exception):
+    """The map has no image: the engine stalls, meets its head, or its step fails.
+
+    Attributes
+    ----------
+    code : int
+        Why the integrator came back.
+    """
+
+    def __init__(self, code: int):
+        super().__init__(code)
+        self.code = code
+
+
+@dataclass
+class ReturnMap:
+    """Return map of an engine, with the records it works on.
+
+    Attributes
+    ----------
+    engine : Engine
+    kernel : Kernel
+    state : State
+        The present state; every call moves it.
+    mirrored : bool
+        Whether the map is that of half a cycle, seen in the mirror.
+    strokes : ndarray of STROKE_RECORD
+        Rows of the latest map.
+    snapshot : tuple of ndarray
+        States at the last two left dead centres.
+    run : tuple
+        Arguments of the compiled functions.
+    """
+
+    engine: Engine
+    kernel: Kernel
+    state: State
+    mirrored: bool
+    strokes: np.ndarray
+    snapshot: tuple[np.ndarray, ...]
+    run: tuple[Any, ...]
+
+    @classmethod
+    def of(cls, engine: Engine, state: State, rtol: float, mirrored: bool) -> ReturnMap:
+        """Return map that begins at a state."""
+        settings = Settings(
+            duration=math.inf,
+            rtol=rtol,
+            peaks=0,
+            motored_pressure=needs_motored_pressure(engine),
+        )
+        E = state.engine[0]
+        options = options_record(settings, math.inf)
+        options["events"] = 0
+        options["longest"] = LONGEST * E["length_scale"] / E["speed_scale"]
+        strokes = np.zeros(4, layout.STROKE_RECORD)
+        snapshot = (
+            np.zeros(2, layout.ENGINE_RECORD),
+            np.zeros((2, 2), layout.CHAMBER_RECORD),
+            np.zeros((2, layout.N_ALL)),
+        )
+        run = (
+            parameters(engine),
+            state.engine,
+            state.chambers,
+            state.y,
+            state.peaks,
+            tuple(tableaus.ADAPTIVE),
+            tableaus.ADAPTIVE_ORDER,
+            options,
+            strokes,
+            np.zeros(0, layout.EVENT_RECORD),
+            np.zeros(0, layout.HISTORY_RECORD),
+            np.zeros(3, np.int64),
+            snapshot,
+            work_space(len(tableaus.ADAPTIVE.b)),
+            np.zeros(1, layout.CHAMBER_RECORD),
+        )
+        return cls(engine, kernel_for(engine), state, mirrored, strokes, snapshot, run)
+
+    @property
+    def strokes_per_map(self) -> float:
+        """Strokes from one return to the next."""
+        return 1.0 if self.mirrored else 2.0
+
+    @property
+    def evaluations(self) -> int:
+        """Right-hand sides evaluated so far."""
+        return int(self.state.engine["evaluations"][0])
+
+    def find(self, most: int, tolerance: float) -> tuple[int, np.ndarray]:
+        """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit).
+
+        Returns
+        -------
+        code : int
+            Why it ended, as a code of the layout.
+        found : ndarray
+            Maps taken, residual of the last one, residual of the whole cycle after it.
+        """
+        n = layout.N_VECTOR
+        vectors = (np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros((2, n)))
+        found = np.zeros(3)
+        code = self.kernel.call(
+            "find_orbit",
+            self.run,
+            self.strokes_per_map,
+            self.mirrored,
+            most,
+            tolerance,
+            vectors,
+            np.zeros(2, np.int64),
+            found,
+        )
+        return int(code), found
+
+    def reset(self, state: State) -> None:
+        """Go to a copy of a state."""
+        self.state.engine[:] = state.engine
+        self.state.peaks[:] = 0.0
+        self.state.chambers[:] = state.chambers
+        self.state.y[:] = state.y
+
+    def image(self, start: State, z: np.ndarray) -> np.ndarray:
+        """Image of a vector, the rest of the state as in `start`.
+
+        Raises
+        ------
+        NoReturn
+            If there is none.
+        """
+        self.reset(start)
+        image = np.empty(layout.N_VECTOR)
+        code = self.kernel.call("image_of", self.run, self.strokes_per_map, self.mirrored, z, image)
+        if code != layout.END_OF_TIME:
+            raise NoReturn(int(code))
+        return image
+
+    def vector(self, state: State) -> np.ndarray:
+        """A state as a vector."""
+        z = np.empty(layout.N_VECTOR)
+        write_vector(_Fields(state.engine[0]), [_Fields(c) for c in state.chambers], state.y, z)
+        return z
+
+    def jacobian(self, start: State, z: np.ndarray) -> np.ndarray:
+        """Derivative of the map at a vector, by central differences.
+
+        Entries that stay the same whatever is done to them (those of an open chamber) cost
+        nothing but their own two maps.
+        """
+        matrix = np.zeros((len(z), len(z)))
+        has_current = type(self.engine.alternator).current_rate is not Alternator.current_rate
+        for n in range(len(z)):
+            if n == AMPERES and not has_current:
+                continue
+            ahead, behind = z.copy(), z.copy()
+            ahead[n] += DIFFERENCE
+            behind[n] -= DIFFERENCE
+            difference = self.image(start, ahead) - self.image(start, behind)
+            matrix[:, n] = difference / (2.0 * DIFFERENCE)
+        return matrix
+
+
+class _Fields:
+    """A record with its fields as attributes, for the kernel's plain functions."""
+
+    def __init__(self, record: Any):
+        for name in record.dtype.names:
+            setattr(self, name, record[name].item())
+
+
+def repeats_itself(engine: Engine) -> bool:
+    """Whether nothing in an engine depends on the time or on the number of the charge."""
+    for chamber in engine.chambers:
+        if not isinstance(getattr(chamber, "misfires", NoMisfires()), NoMisfires):
+            return False
+    return all(
+        _forces(engine, Motion(0.0, *probe)) == _forces(engine, Motion(0.137, *probe))
+        for probe in _probes(engine)
+    )
+
+
+def is_symmetric(engine: Engine) -> bool:
+    """Whether an engine is its own mirror image, laws of motion included."""
+    if not engine.is_mirrored:
+        return False
+    for x, v, direction, current in _probes(engine):
+        there = _forces(engine, Motion(0.0, x, v, direction, current))
+        mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
+        signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
+        for sign, a, b in zip(signs, there, mirrored, strict=True):
+            if abs(sign * a - b) > 1e-12 * abs(a):
+                return False
+    return True
+
+
+def _probes(engine: Engine) -> list[tuple[float, float, float, float]]:
+    """Positions, velocities, directions and currents at which forces are compared."""
+    length = 0.5 * engine.maximum_stroke
+    speed = 100.0 * length
+    return [(a * length, b * speed, math.copysign(1.0, b), c) for a, b, c in PROBES]
+
+
+def _forces(engine: Engine, motion: Motion) -> list[float]:
+    """Forces and the rate of the current, then energies: odd and even in the mirror."""
+    return [
+        engine.springs.force(motion),
+        engine.friction.force(1.0, motion),
+        engine.alternator.force(1.0, motion),
+        engine.alternator.current_rate(1.0, motion),
+        engine.springs.energy(motion),
+        engine.alternator.electrical_power(1.0, motion),
+    ]

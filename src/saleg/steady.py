@@ -1,0 +1,255 @@
+"""Steady states, solved for instead of waited for.
+
+The state at a dead centre settles all that follows, so a steady state is a fixed point of the map
+from one dead centre to the next alike: half a cycle later, in the mirror, for a symmetric engine.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.kernel import layout
+from saleg.kernel.compose import needs_motored_pressure
+from saleg.performance import EnergyBalance, Performance
+from saleg.prepare import prepare
+from saleg.quantities import is_number
+from saleg.results import Run
+from saleg.return_map import ReturnMap, is_symmetric, repeats_itself
+from saleg.simulate import Replay, Settings, SettingsError, simulate
+from saleg.stability import Stability, stability
+from saleg.start import CompressedCharge, Start
+from saleg.status import Status
+
+DEFAULT_TOLERANCE = 1e-6
+#: Maps after which iteration gives up.
+MOST_MAPS = 60
+#: Residual of the map a steady state may have, over the tolerance of the integrator.
+RESIDUAL = 3.0
+#: Residual of the verifying cycle beyond which a fixed point does not count, over the tolerance:
+#: an unstable one grows away from itself.
+MOST_MISSED = 1e3
+#: Time simulated where no fixed point was found [s].
+FALLBACK_DURATION = 4.0
+
+
+@dataclass(eq=False)
+class SteadyState:
+    """A steady state of an engine, or what there is instead.
+
+    Attributes
+    ----------
+    engine : Engine
+    status : Status
+        ``STEADY`` or ``IDLING`` for a fixed point; else why there is none.
+    message : str
+        What was found and how.
+    half_cycles : int
+        Strokes integrated to find it, the verifying cycle included, stability apart.
+    evaluations : int
+        Right-hand sides evaluated for that.
+    residual : float
+        How far the verifying cycle misses its start, in the numbers of order one a state is
+        written in [-]; NaN without a fixed point.
+    method : str
+        "fixed point", "Newton" or "simulation".
+    strokes : ndarray of STROKE_RECORD
+        The two strokes of the cycle; empty without one.
+    """
+
+    engine: Engine
+    status: Status
+    message: str
+    half_cycles: int
+    evaluations: int
+    residual: float
+    method: str
+    strokes: np.ndarray = field(repr=False)
+    replay: Replay | None = field(default=None, repr=False)
+    fallback: Run | None = field(default=None, repr=False)
+
+    @property
+    def found(self) -> bool:
+        """Whether there is a steady state, be it stable or not."""
+        return self.status in (Status.STEADY, Status.IDLING)
+
+    @cached_property
+    def orbit(self) -> Run | None:
+        """One cycle with its whole history and all peaks located; None without a steady state."""
+        return self.replay() if self.replay is not None else None
+
+    @cached_property
+    def performance(self) -> Performance:
+        """Figures of the cycle; zeros and NaN without one."""
+        if not len(self.strokes):
+            return Performance.of_nothing(self.engine)
+        history = None if self.orbit is None else self.orbit.history_rows
+        return Performance.of_cycle(self.engine, self.strokes, self.strokes, history)
+
+    @property
+    def moving_mass(self) -> float:
+        """Moving mass [kg]."""
+        return float(self.engine.translator.mass)
+
+    @cached_property
+    def energy(self) -> EnergyBalance | None:
+        """Energy balance of the cycle, which ends as it began; None without a steady state."""
+        return EnergyBalance.between(self.strokes[-1], self.strokes) if self.found else None
+
+    @cached_property
+    def stability(self) -> Stability:
+        """Multipliers of the cycle and what they mean, differentiated when first asked for."""
+        return stability(self)
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """Multipliers of a whole cycle, the largest first [-]."""
+        return self.stability.multipliers
+
+    @property
+    def stable(self) -> bool:
+        """Whether small disturbances of the cycle die away; False without a steady state."""
+        return self.found and self.stability.stable
+
+    def __str__(self) -> str:
+        from saleg.report import describe_performance
+
+        return f"{self.engine.name}: {self.status} - {self.message}\n" + describe_performance(
+            self.performance
+        )
+
+
+def steady_state(
+    engine: Engine, *, rtol: float = DEFAULT_TOLERANCE, most: int = MOST_MAPS
+) -> SteadyState:
+    """Steady state of an engine: the fixed point of its return map.
+
+    Iterates the map from a compressed charge near the target stroke, extrapolates (Anderson's
+    method, depth two), verifies with one whole cycle. If that does not converge, Newton's method;
+    if that fails too, the engine is simulated from its own start and the end of that is reported.
+
+    Parameters
+    ----------
+    engine : Engine
+    rtol : float
+        Tolerance of the integrator, and of the state after a return.
+    most : int
+        Maps to try before the other methods take over.
+
+    Returns
+    -------
+    SteadyState
+        Always with a status and a message.
+
+    Raises
+    ------
+    InvalidEngine
+        Naming every wrong field of the engine.
+    SettingsError
+        If a setting makes no sense.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> found = saleg.steady_state(saleg.machines.thesis_base())
+    >>> found.found, round(found.performance.frequency, 2), found.half_cycles < 20
+    (True, 46.97, True)
+    """
+    if not is_number(rtol) or not 1e-13 <= rtol <= 1e-3:
+        raise SettingsError(f"rtol = {rtol!r}: must be a number from 1e-13 to 1e-3")
+    if not isinstance(most, (int, np.integer)) or most < 0:
+        raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
+    engine.validate()
+    if not repeats_itself(engine):
+        return _waited_for(engine, rtol, 0, 0, "a law depends on time or counts charges")
+    return _solved(engine, rtol, most)
+
+
+def _solved(engine: Engine, rtol: float, most: int) -> SteadyState:
+    """Fixed point by iteration, from one start after the other; else Newton; else simulation."""
+    mirrored = is_symmetric(engine)
+    spent = evaluations = 0
+    for start in _starts(engine):
+        state = prepare(replace(engine, start=start))
+        chart = ReturnMap.of(engine, state, rtol, mirrored)
+        code, found = chart.find(most, RESIDUAL * rtol)
+        spent += int(found[0] * chart.strokes_per_map) + (2 if code == layout.END_OF_TIME else 0)
+        evaluations += chart.evaluations
+        if _converged(code, found, rtol):
+            return _result(chart, spent, evaluations, float(found[2]), "fixed point", rtol)
+    return _waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
+
+
+def _starts(engine: Engine) -> Iterator[Start]:
+    """Where to look from: near the target stroke, deeper and less deep, and the engine's own."""
+    depth = float(getattr(engine.alternator, "target_stroke", 0.9))
+    yield CompressedCharge(position=-min(max(depth, 0.5), 0.95), burning=1.0)
+    if engine.start != CompressedCharge():
+        yield engine.start
+    yield CompressedCharge(position=-0.75, burning=1.0)
+
+
+def _converged(code: int, found: np.ndarray, tolerance: float) -> bool:
+    """Whether a fixed point was found and a whole cycle from it comes back to it."""
+    return code == layout.END_OF_TIME and found[2] <= MOST_MISSED * tolerance
+
+
+def _result(
+    chart: ReturnMap, spent: int, evaluations: int, residual: float, method: str, rtol: float
+) -> SteadyState:
+    """What a converged map has found."""
+    engine, strokes = chart.engine, chart.strokes[:2].copy()
+    snapshot = tuple(part.copy() for part in chart.snapshot)
+    settings = Settings(duration=0.0, rtol=rtol, motored_pressure=needs_motored_pressure(engine))
+    status, what = _kind(engine, strokes)
+    symmetry = "half-cycle map, mirrored" if chart.mirrored else "full-cycle map"
+    message = (
+        f"{what} a fixed point of the {symmetry}, found in {spent} half cycles; "
+        f"a whole cycle misses its start by {residual:.1e}"
+    )
+    return SteadyState(
+        engine=engine,
+        status=status,
+        message=message,
+        half_cycles=spent,
+        evaluations=evaluations,
+        residual=residual,
+        method=method,
+        strokes=strokes,
+        replay=Replay(engine, snapshot, settings),
+    )
+
+
+def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
+    """Status of a fixed point by what it delivers."""
+    heat = float(strokes["heat_released"].sum())
+    if engine.fires and not heat > 0.0:
+        return Status.STALLED, "does not fire; it only swings:"
+    if engine.fires and not float(strokes["electrical_energy"].sum()) > 1e-9 * heat:
+        return Status.IDLING, "fires but delivers no power:"
+    return Status.STEADY, "steady:"
+
+
+def _waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
+    """Simulate from the engine's own start and report how that ends."""
+    run = simulate(engine, FALLBACK_DURATION, rtol=rtol)
+    steady = run.status in (Status.STEADY, Status.IDLING)
+    strokes = run.last_cycle_strokes if steady else None
+    unsettled = run.status is Status.COMPLETED
+    return SteadyState(
+        engine=engine,
+        status=Status.UNSTEADY if unsettled else run.status,
+        message=f"{why}; simulated instead: {run.message}",
+        half_cycles=spent + len(run.strokes),
+        evaluations=evaluations + run.evaluations,
+        residual=math.nan,
+        method="simulation",
+        strokes=run.strokes[:0] if strokes is None else strokes.copy(),
+        replay=run.replay if steady else None,
+        fallback=run,
+    )
