@@ -80,6 +80,7 @@ BASES = {**CHAMBER_SLOTS, **ENGINE_SLOTS}
 ARGUMENTS = {
     "gamma": [(T,) for T in (150.0, 300.0, 1000.0, 2500.0, 3500.0)],
     "internal_energy": [(T,) for T in (150.0, 300.0, 1000.0, 2500.0, 3500.0)],
+    "kink": [()],
     "coefficient": [(gas, CHARGE) for gas in GASES],
     "duration": [(gas, CHARGE) for gas in GASES],
     "rate": [(gas, CHARGE) for gas in GASES],

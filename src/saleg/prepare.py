@@ -77,7 +77,7 @@ def _prepare(engine: Engine) -> State:
         _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
         _fill_contents(C[side], held, y, side)
     _fill_engine(E, engine, start, C)
-    refresh(engine, E, C)
+    refresh(engine, E, C, y)
     for side, held in enumerate((start.left, start.right)):
         if held.burning:
             ignite(engine, E, C, side, y, 0)

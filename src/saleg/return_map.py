@@ -11,7 +11,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.compose import Kernel, kernel_for, needs_motored_pressure, parameters
-from saleg.kernel.orbit import AMPERES, write_vector
+from saleg.kernel.orbit import Z_AMPERES, write_vector
 from saleg.laws import NoMisfires
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Alternator
@@ -180,7 +180,7 @@ class ReturnMap:
         matrix = np.zeros((len(z), len(z)))
         has_current = type(self.engine.alternator).current_rate is not Alternator.current_rate
         for n in range(len(z)):
-            if n == AMPERES and not has_current:
+            if n == Z_AMPERES and not has_current:
                 continue
             ahead, behind = z.copy(), z.copy()
             ahead[n] += DIFFERENCE

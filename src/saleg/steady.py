@@ -30,7 +30,7 @@ DEFAULT_TOLERANCE = 1e-6
 #: Maps after which iteration gives up.
 MOST_MAPS = 60
 #: Residual of the map a steady state may have, over the tolerance of the integrator.
-RESIDUAL = 3.0
+RESIDUAL = 1.0
 #: Residual of the verifying cycle beyond which a fixed point does not count, over the tolerance:
 #: an unstable one grows away from itself.
 MOST_MISSED = 1e3

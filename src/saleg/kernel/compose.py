@@ -246,7 +246,24 @@ def compose(
                 f"    return engine_{name}_{method}(P.{name}, {arguments})\n"
             )
     parts += [_own_text(f"kernel/{name}.py") for name in modules]
-    return "\n".join(parts) + "\n"
+    text = "\n".join(parts) + "\n"
+    _check_names(text)
+    return text
+
+
+def _check_names(text: str) -> None:
+    """Refuse a module in which a name stands for two things: its parts share one namespace."""
+    seen: set[str] = set()
+    for node in ast.parse(text).body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            names = {node.name}
+        elif isinstance(node, ast.Assign):
+            names = {item.id for item in node.targets if isinstance(item, ast.Name)}
+        else:
+            continue
+        if names & seen:
+            raise LawError(f"two parts of the kernel define {', '.join(sorted(names & seen))}")
+        seen |= names
 
 
 def _chamber_slot(

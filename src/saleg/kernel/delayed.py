@@ -41,7 +41,7 @@ def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled,
     P, E, O = P1[0], E1[0], O1[0]
     k0, k1, y_new = work
     size = forces.shape[0]
-    refresh(P, E, C)
+    refresh(P, E, C, y)
     while E.t < O.t_end:
         if strokes.shape[0] - filled[0] < 1 or events.shape[0] - filled[1] < 12:
             return BUFFER_FULL

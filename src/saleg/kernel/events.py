@@ -11,6 +11,7 @@ from saleg.kernel.layout import (
     G0,
     HEAD,
     IGNITION,
+    KINK,
     LIGHT,
     N_ALL,
     N_EVENTS,
@@ -20,7 +21,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import height_of, rhs
+from saleg.kernel.rhs import height_of, ln_temperature, rhs
 from saleg.kernel.step import take_step
 
 
@@ -37,8 +38,10 @@ def event_is_possible(E, C, event):
     outward = c.sign * E.direction
     if event < LIGHT:
         return outward < 0.0 if c.mode == OPEN else outward > 0.0
-    if event < HEAD:
+    if event < KINK:
         return c.mode == CLOSED and c.armed > DISARMED
+    if event < HEAD:
+        return c.mode != OPEN and c.ln_kink > 0.0
     return outward < 0.0 and c.mode != OPEN
 
 
@@ -52,8 +55,10 @@ def event_value(E, C, event, y):
     if event < LIGHT:
         beyond = height_of(C, side, y[X]) - c.port
         return -beyond if c.mode == OPEN else beyond
-    if event < HEAD:
+    if event < KINK:
         return y[IGNITION + side] - 1.0
+    if event < HEAD:
+        return c.beyond_kink * (c.ln_kink - ln_temperature(C, side, y))
     return c.head_gap - height_of(C, side, y[X])
 
 
@@ -66,8 +71,11 @@ def event_rate(E, C, event, y, dy):
     c = C[side]
     if event < LIGHT:
         return -c.sign * y[V] if c.mode == OPEN else c.sign * y[V]
-    if event < HEAD:
+    if event < KINK:
         return dy[IGNITION + side]
+    if event < HEAD:
+        height = height_of(C, side, y[X])
+        return -c.beyond_kink * (dy[THETA + side] + (1.0 - G0) * c.sign * y[V] / height)
     return -c.sign * y[V]
 
 
@@ -79,8 +87,11 @@ def land(C, event, y):
     elif event < LIGHT:
         c = C[(event - 1) % 2]
         y[X] = c.sign * (c.port - c.half_stroke)
-    elif event < HEAD:
+    elif event < KINK:
         y[IGNITION + (event - 1) % 2] = 1.0
+    elif event < HEAD:
+        c = C[(event - 1) % 2]
+        c.beyond_kink = -c.beyond_kink
 
 
 @inline
@@ -125,7 +136,7 @@ def guessed_time(E, C, event, h, y, y_new, dy, dy_new):
     g1, r1 = event_value(E, C, event, y_new), event_rate(E, C, event, y_new, dy_new)
     if g0 >= 0.0 or h <= 0.0:
         return 0.0
-    if LIGHT <= event < HEAD and g0 > -0.9:  # the integral grows about exponentially
+    if LIGHT <= event < KINK and g0 > -0.9:  # the integral grows about exponentially
         g0, r0, g1, r1 = log1p(g0), r0 / (1.0 + g0), log1p(g1), r1 / (1.0 + g1)
     return cubic_root(g0, r0, g1, r1, h)
 

@@ -196,7 +196,7 @@ def run_on(
     k, y_new, spare = work
     spare[4][N_PEAKS] = 0.0
     last_step = E.steps + O.max_steps
-    refresh(P, E, C)
+    refresh(P, E, C, y)
     switch(P, E, C, O, y, -1, peaks, strokes, events, filled)  # what is due at the start
     rhs(P, E, C, E.t, y, k[0], O.motored)
     E.evaluations += 1.0

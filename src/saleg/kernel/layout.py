@@ -71,8 +71,9 @@ MOST_STEPS = 1_000_000.0
 DEAD_CENTRE = 0
 PORT = 1
 LIGHT = 3
-HEAD = 5
-N_EVENTS = 7
+KINK = 5
+HEAD = 7
+N_EVENTS = 9
 # Kinds in the event table.
 EVENT_DEAD_CENTRE = 0
 EVENT_PORT_CLOSING = 1
@@ -172,6 +173,8 @@ CHAMBER_RECORD = np.dtype(
             "ln_volume",
             "ln_mass_gas",
             "per_mass_gas",
+            "ln_kink",
+            "beyond_kink",
             "heat_first",
             "heat_second",
             "heat_third",

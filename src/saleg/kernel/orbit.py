@@ -30,90 +30,90 @@ from saleg.kernel.switch import begin_stroke
 WARM_UP = 2
 FARTHEST = 0.5
 # Entries of the vector: first those of the engine, then per side.
-POSITION = 0
-LN_SPEED = 1
-WEIGHT = 2
-FRICTION = 3
-STROKE = 4
-FUEL_ENERGY = 5
-SPEED_SQUARED = 6
-AMPERES = 7
-CHAMBERS = 8
-LN_PRESSURE = 0
-INTEGRAL = 1
-LN_MOTORED = 2
-LN_MASS = 3
-FUEL = 4
-AIR = 5
-BURNT = 6
-RATIO = 7
-BURN_PHASE = 8
-LN_DURATION = 9
-TO_BURN = 10
+Z_POSITION = 0
+Z_LN_SPEED = 1
+Z_WEIGHT = 2
+Z_FRICTION = 3
+Z_STROKE = 4
+Z_FUEL_ENERGY = 5
+Z_SPEED_SQUARED = 6
+Z_AMPERES = 7
+Z_CHAMBERS = 8
+Z_LN_PRESSURE = 0
+Z_INTEGRAL = 1
+Z_LN_MOTORED = 2
+Z_LN_MASS = 3
+Z_FUEL = 4
+Z_AIR = 5
+Z_BURNT = 6
+Z_RATIO = 7
+Z_BURN_PHASE = 8
+Z_LN_DURATION = 9
+Z_TO_BURN = 10
 
 
 @compiled
 def write_vector(E, C, y, z):
     """State at a dead centre as a vector of numbers of the order of one."""
-    z[POSITION] = y[X] / E.length_scale
-    z[LN_SPEED] = log(max(E.mean_piston_speed, 1e-300))
-    z[WEIGHT] = E.load_weight
-    z[FRICTION] = E.friction_held
-    z[STROKE] = E.stroke / E.length_scale
-    z[FUEL_ENERGY] = E.last_fuel_energy / (E.mass * E.speed_scale**2)
-    z[SPEED_SQUARED] = E.last_speed_squared / (E.speed_scale * E.length_scale)
-    z[AMPERES] = y[CURRENT] / E.current_scale
+    z[Z_POSITION] = y[X] / E.length_scale
+    z[Z_LN_SPEED] = log(max(E.mean_piston_speed, 1e-300))
+    z[Z_WEIGHT] = E.load_weight
+    z[Z_FRICTION] = E.friction_held
+    z[Z_STROKE] = E.stroke / E.length_scale
+    z[Z_FUEL_ENERGY] = E.last_fuel_energy / (E.mass * E.speed_scale**2)
+    z[Z_SPEED_SQUARED] = E.last_speed_squared / (E.speed_scale * E.length_scale)
+    z[Z_AMPERES] = y[CURRENT] / E.current_scale
     for side in range(2):
         c = C[side]
-        first = CHAMBERS + VECTOR_PER_SIDE * side
+        first = Z_CHAMBERS + VECTOR_PER_SIDE * side
         closed = c.mode != OPEN
-        z[first + LN_PRESSURE] = y[THETA + side] if closed else 0.0
-        z[first + INTEGRAL] = y[IGNITION + side] if closed else 0.0
-        z[first + LN_MOTORED] = y[MOTORED + side] if closed else 0.0
-        z[first + LN_MASS] = log(c.mass)
-        z[first + FUEL] = c.fuel / c.mass
-        z[first + AIR] = c.air / c.mass
-        z[first + BURNT] = c.burnt / c.mass
-        z[first + RATIO] = c.equivalence_ratio
+        z[first + Z_LN_PRESSURE] = y[THETA + side] if closed else 0.0
+        z[first + Z_INTEGRAL] = y[IGNITION + side] if closed else 0.0
+        z[first + Z_LN_MOTORED] = y[MOTORED + side] if closed else 0.0
+        z[first + Z_LN_MASS] = log(c.mass)
+        z[first + Z_FUEL] = c.fuel / c.mass
+        z[first + Z_AIR] = c.air / c.mass
+        z[first + Z_BURNT] = c.burnt / c.mass
+        z[first + Z_RATIO] = c.equivalence_ratio
         burning = c.mode == BURNING
-        z[first + BURN_PHASE] = (E.t - c.t_ignition) / c.duration if burning else 0.0
-        z[first + LN_DURATION] = log(c.duration) if burning else 0.0
-        z[first + TO_BURN] = c.fuel_to_burn / c.mass if burning else 0.0
+        z[first + Z_BURN_PHASE] = (E.t - c.t_ignition) / c.duration if burning else 0.0
+        z[first + Z_LN_DURATION] = log(c.duration) if burning else 0.0
+        z[first + Z_TO_BURN] = c.fuel_to_burn / c.mass if burning else 0.0
 
 
 @compiled
 def read_vector(E, C, y, z):
     """Put a vector back; modes, and all that a vector does not say, stay as they are."""
-    y[X] = z[POSITION] * E.length_scale
+    y[X] = z[Z_POSITION] * E.length_scale
     y[V] = 0.0
     E.x_dead_centre = y[X]
     E.t_dead_centre = E.t
-    E.mean_piston_speed = exp(z[LN_SPEED])
-    E.load_weight = z[WEIGHT]
-    E.friction_held = z[FRICTION]
-    E.stroke = z[STROKE] * E.length_scale
-    E.last_fuel_energy = z[FUEL_ENERGY] * (E.mass * E.speed_scale**2)
-    E.last_speed_squared = z[SPEED_SQUARED] * (E.speed_scale * E.length_scale)
-    y[CURRENT] = z[AMPERES] * E.current_scale
+    E.mean_piston_speed = exp(z[Z_LN_SPEED])
+    E.load_weight = z[Z_WEIGHT]
+    E.friction_held = z[Z_FRICTION]
+    E.stroke = z[Z_STROKE] * E.length_scale
+    E.last_fuel_energy = z[Z_FUEL_ENERGY] * (E.mass * E.speed_scale**2)
+    E.last_speed_squared = z[Z_SPEED_SQUARED] * (E.speed_scale * E.length_scale)
+    y[CURRENT] = z[Z_AMPERES] * E.current_scale
     for side in range(2):
         c = C[side]
-        first = CHAMBERS + VECTOR_PER_SIDE * side
-        c.mass = exp(z[first + LN_MASS])
-        c.fuel = max(z[first + FUEL], 0.0) * c.mass
-        c.air = max(z[first + AIR], 0.0) * c.mass
-        c.burnt = max(z[first + BURNT], 0.0) * c.mass
-        c.equivalence_ratio = z[first + RATIO]
+        first = Z_CHAMBERS + VECTOR_PER_SIDE * side
+        c.mass = exp(z[first + Z_LN_MASS])
+        c.fuel = max(z[first + Z_FUEL], 0.0) * c.mass
+        c.air = max(z[first + Z_AIR], 0.0) * c.mass
+        c.burnt = max(z[first + Z_BURNT], 0.0) * c.mass
+        c.equivalence_ratio = z[first + Z_RATIO]
         if c.mode == OPEN:
             continue
-        y[THETA + side] = z[first + LN_PRESSURE]
-        y[IGNITION + side] = z[first + INTEGRAL]
-        y[MOTORED + side] = z[first + LN_MOTORED]
+        y[THETA + side] = z[first + Z_LN_PRESSURE]
+        y[IGNITION + side] = z[first + Z_INTEGRAL]
+        y[MOTORED + side] = z[first + Z_LN_MOTORED]
         if c.mode == BURNING:
-            c.duration = exp(z[first + LN_DURATION])
-            phase = min(max(z[first + BURN_PHASE], 0.0), 1.0)
+            c.duration = exp(z[first + Z_LN_DURATION])
+            phase = min(max(z[first + Z_BURN_PHASE], 0.0), 1.0)
             c.t_ignition = E.t - phase * c.duration
             c.t_end = c.t_ignition + c.duration
-            c.fuel_to_burn = z[first + TO_BURN] * c.mass
+            c.fuel_to_burn = z[first + Z_TO_BURN] * c.mass
 
 
 @compiled

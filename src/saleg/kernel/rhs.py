@@ -38,6 +38,7 @@ from saleg.kernel.slots import (
     alternator_force,
     friction_force,
     gas_properties_gamma,
+    gas_properties_kink,
     heat_release_burn_rate,
     heat_transfer_coefficient,
     heat_transfer_coefficient_constants,
@@ -58,6 +59,14 @@ def height_of(C, side, x):
 def ln_height_of(C, side, x):
     """Natural logarithm of the clearance over that at the midpoint."""
     return log(height_of(C, side, x) / C[side].half_stroke)
+
+
+@inline
+def ln_temperature(C, side, y):
+    """Natural logarithm of the temperature in a closed chamber [K]."""
+    c = C[side]
+    ln_height = ln_height_of(C, side, y[X])
+    return y[THETA + side] + (1.0 - G0) * ln_height + c.ln_volume - c.ln_mass_gas
 
 
 @inline
@@ -254,7 +263,7 @@ def rhs(P, E, C, t, y, dy, motored):
 
 
 @compiled
-def refresh(P, E, C):
+def refresh(P, E, C, y):
     """Compute what stays the same until the next event."""
     for side in range(2):
         c = C[side]
@@ -263,6 +272,9 @@ def refresh(P, E, C):
         c.ln_volume = log(c.area * c.half_stroke)
         c.ln_mass_gas = log(c.mass * c.gas_constant)
         c.per_mass_gas = 1.0 / (c.mass * c.gas_constant)
+        kink = gas_properties_kink(P, side)
+        c.ln_kink = log(kink) if kink > 0.0 else 0.0
+        c.beyond_kink = 1.0 if ln_temperature(C, side, y) > c.ln_kink else -1.0
         gas = gas_at(E, C, side, 0.0, 0.0, 0.0, 0.0)  # of which only what stays the same is used
         charge = charge_of(E, C, side)
         heat = heat_transfer_coefficient_constants(P, side, gas, charge)

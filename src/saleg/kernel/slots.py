@@ -24,6 +24,11 @@ def gas_properties_internal_energy(P: Any, side: int, T: float) -> float:
     return _chamber(P, side).gas_properties.internal_energy(T)
 
 
+def gas_properties_kink(P: Any, side: int) -> float:
+    """Temperature at which gamma is not smooth."""
+    return _chamber(P, side).gas_properties.kink()
+
+
 def heat_transfer_coefficient(
     P: Any, side: int, gas: Gas, charge: Charge, aid: Aid | None = None
 ) -> float:

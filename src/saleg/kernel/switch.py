@@ -367,7 +367,7 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
     if landed >= HEAD:
         record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, events, filled)
     if changed:
-        refresh(P, E, C)
+        refresh(P, E, C, y)
     return changed
 
 

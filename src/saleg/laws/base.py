@@ -60,7 +60,8 @@ class GasProperties(Law):
     """Caloric properties of the ideal gas in a chamber; needs a field ``gas_constant`` [J/kg/K]."""
 
     slot = "gas_properties"
-    compiled = ("gamma", "internal_energy")
+    compiled = ("gamma", "internal_energy", "kink")
+    optional = ("kink",)
 
     gas_constant: float
 
@@ -71,6 +72,10 @@ class GasProperties(Law):
     def internal_energy(self, T: float) -> float:
         """Specific internal energy [J/kg] at temperature `T` [K]: the integral of R/(gamma - 1)."""
         raise NotImplementedError
+
+    def kink(self) -> float:
+        """Temperature at which gamma is not smooth [K], so that steps end there; 0 for none."""
+        return 0.0
 
 
 class HeatTransfer(Law):

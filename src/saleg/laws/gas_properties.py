@@ -61,6 +61,10 @@ class ChangGas(GasProperties):
         """Ratio of specific heats [-], Eq. 49."""
         return chang_gamma(min(T, HOLD))
 
+    def kink(self) -> float:
+        """Temperature at which gamma is not smooth [K]: where its hold begins."""
+        return HOLD
+
     def internal_energy(self, T: float) -> float:
         """Specific internal energy above 300 K [J/kg]."""
         warm = chang_energy(self.gas_constant, min(T, HOLD))
