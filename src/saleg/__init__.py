@@ -5,6 +5,7 @@ stops exactly at its events; results only read. All quantities are in SI units.
 """
 
 from saleg import laws, machines
+from saleg.batches import simulate_many, steady_states
 from saleg.engine import BounceChamber, Cylinder, Engine, Fuel, Intake, Translator
 from saleg.errors import EngineFileError, InvalidEngine, LawError, SalegError, UnknownPath
 from saleg.performance import EnergyBalance, Performance
@@ -35,7 +36,9 @@ __all__ = [
     "laws",
     "machines",
     "simulate",
+    "simulate_many",
     "steady_state",
+    "steady_states",
 ]
 
 

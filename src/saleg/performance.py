@@ -15,6 +15,34 @@ from saleg.indicators import adverse_work, cycle_compression_ratios, repeatabili
 nan = math.nan
 
 
+#: Units of the figures of Performance.
+UNITS = {
+    "stroke": "m",
+    "compression_ratio": "-",
+    "frequency": "Hz",
+    "power": "W",
+    "rms_power": "W",
+    "efficiency": "-",
+    "mean_alternator_force": "N",
+    "peak_pressure": "Pa",
+    "peak_acceleration": "m/s^2",
+    "peak_velocity": "m/s",
+    "fuel_energy_per_cycle": "J",
+    "charge_mass": "kg",
+    "moving_mass": "kg",
+    "peak_temperature": "K",
+    "peak_pressure_rise": "Pa/s",
+    "indicated_work": "J",
+    "indicated_efficiency": "-",
+    "adverse_work": "J",
+    "start_of_combustion": "s",
+    "start_of_combustion_position": "m",
+    "burn_centre": "s",
+    "stability": "-",
+    "cr_change": "-",
+}
+
+
 @dataclass(frozen=True)
 class Performance:
     """Performance over one full cycle, left dead centre to left dead centre; SI.

@@ -92,6 +92,13 @@ class SteadyState:
         return Performance.of_cycle(self.engine, self.strokes, self.strokes, history)
 
     @property
+    def quick_performance(self) -> Performance:
+        """The same without what needs the history of the cycle: the adverse work is NaN."""
+        if not len(self.strokes):
+            return Performance.of_nothing(self.engine)
+        return Performance.of_cycle(self.engine, self.strokes, self.strokes)
+
+    @property
     def moving_mass(self) -> float:
         """Moving mass [kg]."""
         return float(self.engine.translator.mass)

@@ -1,0 +1,271 @@
+"""Many engines at once: rows in order, failures among them, the same whoever does the work."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import sys
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import nullcontext
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.errors import SalegError
+from saleg.kernel.compose import kernel_for
+from saleg.performance import UNITS as PERFORMANCE_UNITS
+from saleg.performance import Performance
+from saleg.simulate import simulate
+from saleg.status import Status
+from saleg.steady import steady_state
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: Engines sent to a worker at a time, and chunks under way for each worker.
+CHUNK = 32
+UNDER_WAY = 3
+#: Figures that need the whole history of a cycle; a batch leaves them out.
+NOT_IN_ROWS = ("adverse_work",)
+
+Row = dict[str, Any]
+
+UNITS = {
+    "status": "-",
+    "message": "-",
+    **{name: unit for name, unit in PERFORMANCE_UNITS.items() if name not in NOT_IN_ROWS},
+    "method": "-",
+    "half_cycles": "-",
+    "evaluations": "-",
+    "residual": "-",
+    "stable": "-",
+    "kind": "-",
+    "largest_multiplier": "-",
+    "beat_period": "s",
+}
+
+
+def steady_states(
+    engines: Iterable[Engine],
+    *,
+    rtol: float = 1e-6,
+    multipliers: bool = False,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    chunk: int = CHUNK,
+) -> pd.DataFrame:
+    """Steady states of many engines.
+
+    Parameters
+    ----------
+    engines : iterable of Engine
+        Taken as they are needed, so they need not all exist at once.
+    rtol : float
+        Tolerance of the integrator.
+    multipliers : bool
+        Differentiate each steady state: whether it is stable, and how it would not be.
+    executor : concurrent.futures.Executor, optional
+        Who does the work; threads of this process unless given.
+    workers : int, optional
+        Threads; as many as there are processors unless given.
+    chunk : int
+        Engines sent at a time.
+
+    Returns
+    -------
+    DataFrame
+        One row per engine, in order: status, message, figures of the cycle (SI), half cycles and
+        right-hand sides spent. An engine without a steady state, or that is not valid, is a row
+        with that status. Units in ``.attrs``.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> base = saleg.machines.thesis_base()
+    >>> table = saleg.steady_states(base.replace(egr=share) for share in (0.1, 0.2))
+    >>> list(table.status)
+    ['steady', 'steady']
+    """
+    one = partial(_steady_row, rtol=rtol, multipliers=multipliers)
+    return _table(one, engines, executor, workers, chunk)
+
+
+def simulate_many(
+    engines: Iterable[Engine],
+    duration: float,
+    *,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    chunk: int = CHUNK,
+    **settings: Any,
+) -> pd.DataFrame:
+    """Simulate many engines, each from its own start, and keep how they end.
+
+    Parameters
+    ----------
+    engines : iterable of Engine
+    duration : float
+        Time to simulate [s].
+    executor, workers, chunk
+        As for :func:`steady_states`.
+    **settings
+        Further settings of :func:`saleg.simulate`.
+
+    Returns
+    -------
+    DataFrame
+        One row per engine, in order: status, message and the figures of the last cycle.
+    """
+    one = partial(_run_row, duration=duration, settings=settings)
+    return _table(one, engines, executor, workers, chunk)
+
+
+def _steady_row(engine: Engine, rtol: float, multipliers: bool) -> Row:
+    """Row of a steady state."""
+    found = steady_state(engine, rtol=rtol)
+    row = _row(found.status, found.message, found.quick_performance)
+    row["method"] = found.method
+    row["half_cycles"] = float(found.half_cycles)
+    row["evaluations"] = float(found.evaluations)
+    row["residual"] = found.residual
+    if multipliers:
+        known = found.stability if found.found else None
+        values = known.multipliers if known is not None else np.zeros(0)
+        row["stable"] = known is not None and known.stable
+        row["kind"] = "" if known is None else known.kind
+        row["largest_multiplier"] = float(abs(values[0])) if len(values) else np.nan
+        row["beat_period"] = np.nan if known is None else known.beat_period
+    return row
+
+
+def _run_row(engine: Engine, duration: float, settings: Mapping[str, Any]) -> Row:
+    """Row of a run."""
+    run = simulate(engine, duration, **settings)
+    row = _row(run.status, run.message, run.performance)
+    row["evaluations"] = float(run.evaluations)
+    return row
+
+
+def _row(status: Status, message: str, performance: Performance) -> Row:
+    figures = performance.to_dict()
+    kept = {name: figures[name] for name in figures if name not in NOT_IN_ROWS}
+    return {"status": str(status), "message": message, **kept}
+
+
+def _rows(one: Callable[[Engine], Row], engines: Sequence[Engine]) -> dict[str, list[Any]]:
+    """Rows of a chunk, column by column; what cannot even begin is a row too."""
+    columns: dict[str, list[Any]] = {}
+    for count, engine in enumerate(engines):
+        try:
+            row = one(engine)
+        except SalegError as error:
+            row = {"status": str(Status.INVALID), "message": str(error)}
+        for name in row:
+            columns.setdefault(name, [_missing(columns, name)] * count)
+        for name, values in columns.items():
+            values.append(row.get(name, _missing(columns, name)))
+    return columns
+
+
+def _missing(columns: Mapping[str, Sequence[Any]], name: str) -> Any:
+    """What stands in a column where a row has no entry."""
+    if name in ("method", "kind"):
+        return ""
+    return False if name == "stable" else np.nan
+
+
+def _table(
+    one: Callable[[Engine], Row],
+    engines: Iterable[Engine],
+    executor: Executor | None,
+    workers: int | None,
+    chunk: int,
+) -> pd.DataFrame:
+    """Send engines out in chunks and put their rows together in order."""
+    import pandas as pd
+
+    if chunk < 1:
+        raise ValueError(f"chunk = {chunk!r}: must be at least 1")
+    count = workers or os.cpu_count() or 1
+    own = ThreadPoolExecutor(count) if executor is None else nullcontext(executor)
+    parts: dict[str, list[np.ndarray]] = {}
+    length = 0
+    with own as pool, _progress(engines) as bar:
+        for columns in _in_order(pool, partial(_rows, one), _chunks(one, engines, chunk), count):
+            rows = len(columns["status"])
+            for name in {**columns, **parts}:
+                earlier = parts.setdefault(name, _filled(name, length))
+                values = columns.get(name, [_missing(columns, name)] * rows)
+                earlier.append(np.asarray(values, dtype=_kind(name)))
+            length += rows
+            if bar is not None:
+                bar.update(rows)
+    data = {name: np.concatenate(parts[name]) for name in UNITS if name in parts}
+    frame = pd.DataFrame(data, columns=None if data else ["status", "message"])
+    frame.attrs["units"] = {str(name): UNITS[str(name)] for name in frame}
+    return frame
+
+
+def _filled(name: str, length: int) -> list[np.ndarray]:
+    return [np.full(length, _missing({}, name), dtype=_kind(name))] if length else []
+
+
+def _kind(name: str) -> type:
+    if name in ("status", "message", "method", "kind"):
+        return object
+    return bool if name == "stable" else float
+
+
+def _chunks(
+    one: Callable[[Engine], Row], engines: Iterable[Engine], size: int
+) -> Iterator[list[Engine]]:
+    """Engines in lists.
+
+    The first engine with a new combination of laws is tried here and now, so that its kernel is
+    compiled once before the workers ask for it: cold caches are no place for a race.
+    """
+    source, known = iter(engines), set()
+    while taken := list(itertools.islice(source, size)):
+        for engine in taken:
+            try:
+                kernel = kernel_for(engine)
+            except (AttributeError, SalegError):
+                continue  # its row will say why
+            if kernel not in known:
+                known.add(kernel)
+                _rows(one, [engine])
+        yield taken
+
+
+def _in_order(
+    pool: Executor,
+    work: Callable[[Sequence[Engine]], dict[str, list[Any]]],
+    chunks: Iterator[list[Engine]],
+    workers: int,
+) -> Iterator[dict[str, list[Any]]]:
+    """Results in the order of the chunks, with no more under way than keeps the workers busy."""
+    waiting: deque[Future[dict[str, list[Any]]]] = deque()
+    try:
+        for taken in chunks:
+            waiting.append(pool.submit(work, taken))
+            if len(waiting) >= UNDER_WAY * workers:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+    finally:
+        for future in waiting:
+            future.cancel()
+
+
+def _progress(engines: Iterable[Engine]) -> Any:
+    """Progress bar for batches longer than a second of waiting, on a terminal only."""
+    if not sys.stderr.isatty():
+        return nullcontext()
+    from tqdm import tqdm
+
+    total = len(engines) if isinstance(engines, Sequence) else None
+    return tqdm(total=total, delay=1, leave=False, unit=" engines")
