@@ -37,6 +37,21 @@ def get(engine: Engine, path: str) -> Any:
     return value
 
 
+def unit(engine: Engine, path: str) -> str:
+    """Unit of the number at a dotted path, "-" if it has none.
+
+    Raises
+    ------
+    UnknownPath
+        With the nearest existing names.
+    """
+    *above, name = _targets(engine, path)[0]
+    owner = _walk(engine, tuple(above))
+    field = next(item for item in dataclasses.fields(owner) if item.name == name)
+    limits = field.metadata.get("limits")
+    return "-" if limits is None else str(limits.unit)
+
+
 def replace(engine: Engine, changes: Mapping[str, Any]) -> Engine:
     """Copy of an engine with the values at some dotted paths replaced."""
     unknown = []

@@ -11,7 +11,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.compose import Kernel, kernel_for, needs_motored_pressure, parameters
-from saleg.kernel.orbit import Z_AMPERES, write_vector
+from saleg.kernel.orbit import CYCLE, FIND, IMAGE, Z_AMPERES, write_vector
 from saleg.laws import NoMisfires
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Alternator
@@ -127,11 +127,17 @@ class ReturnMap:
         found : ndarray
             Maps taken, residual of the last one, residual of the whole cycle after it.
         """
-        n = layout.N_VECTOR
-        vectors = (np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros((2, n)))
+        vectors = self._vectors()
+        return self._do(FIND, vectors, most, tolerance)
+
+    def _do(
+        self, task: int, vectors: tuple[np.ndarray, ...], most: int = 0, tolerance: float = 0.0
+    ) -> tuple[int, np.ndarray]:
+        """Call the compiled entry point; returns its code and what it found."""
         found = np.zeros(3)
         code = self.kernel.call(
-            "find_orbit",
+            "do_orbit",
+            task,
             self.run,
             self.strokes_per_map,
             self.mirrored,
@@ -142,6 +148,19 @@ class ReturnMap:
             found,
         )
         return int(code), found
+
+    def cycle(self, start: State, z: np.ndarray) -> tuple[int, float]:
+        """One whole cycle from a vector, recorded; the code of its end and how far it misses."""
+        self.reset(start)
+        vectors = self._vectors()
+        vectors[0][:] = z
+        code, found = self._do(CYCLE, vectors)
+        return code, float(found[2])
+
+    def _vectors(self) -> tuple[np.ndarray, ...]:
+        """Room for points, residuals and images."""
+        n = layout.N_VECTOR
+        return np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros((2, n))
 
     def reset(self, state: State) -> None:
         """Go to a copy of a state."""
@@ -159,11 +178,12 @@ class ReturnMap:
             If there is none.
         """
         self.reset(start)
-        image = np.empty(layout.N_VECTOR)
-        code = self.kernel.call("image_of", self.run, self.strokes_per_map, self.mirrored, z, image)
+        vectors = self._vectors()
+        vectors[0][:] = z
+        code, _ = self._do(IMAGE, vectors)
         if code != layout.END_OF_TIME:
-            raise NoReturn(int(code))
-        return image
+            raise NoReturn(code)
+        return vectors[2]
 
     def vector(self, state: State) -> np.ndarray:
         """A state as a vector."""

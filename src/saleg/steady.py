@@ -188,7 +188,7 @@ def _solved(engine: Engine, rtol: float, most: int) -> SteadyState:
         spent += int(found[0] * chart.strokes_per_map) + (2 if code == layout.END_OF_TIME else 0)
         evaluations += chart.evaluations
         if _converged(code, found, rtol):
-            return _result(chart, spent, evaluations, float(found[2]), "fixed point", rtol)
+            return result_of(chart, spent, evaluations, float(found[2]), "fixed point", rtol)
     return _waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
 
 
@@ -206,7 +206,7 @@ def _converged(code: int, found: np.ndarray, tolerance: float) -> bool:
     return code == layout.END_OF_TIME and found[2] <= MOST_MISSED * tolerance
 
 
-def _result(
+def result_of(
     chart: ReturnMap, spent: int, evaluations: int, residual: float, method: str, rtol: float
 ) -> SteadyState:
     """What a converged map has found."""

@@ -26,6 +26,11 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.switch import begin_stroke
 
+# What do_orbit is asked for.
+FIND = 0
+CYCLE = 1
+IMAGE = 2
+
 # Half cycles of plain iteration before extrapolation begins, and how far it may go at once.
 WARM_UP = 2
 FARTHEST = 0.5
@@ -232,7 +237,7 @@ def verified(run, vectors, found):
     return code
 
 
-@cached
+@compiled
 def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, found):
     """Iterate and extrapolate the return map until a state returns to itself; take one cycle then.
 
@@ -274,12 +279,30 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
     return NOT_FOUND
 
 
-@cached
-def image_of(run, strokes_per_map, mirrored, z, image):
-    """Image of a vector under the return map; the modes are those of the records."""
+@compiled
+def cycle_from(run, vectors, found):
+    """One whole cycle from the first of the vectors, as :func:`verified` takes it."""
     E1, C, y = run[1], run[2], run[3]
-    read_vector(E1[0], C, y, z)
+    read_vector(E1[0], C, y, vectors[0])
+    return verified(run, vectors, found)
+
+
+@compiled
+def image_of(run, strokes_per_map, mirrored, vectors):
+    """Image of the first vector, in the third; the modes are those of the records."""
+    E1, C, y = run[1], run[2], run[3]
+    read_vector(E1[0], C, y, vectors[0])
     begin_stroke(E1[0], C, y, run[4])
     code = next_return(run, strokes_per_map, mirrored)
-    write_vector(E1[0], C, y, image)
+    write_vector(E1[0], C, y, vectors[2])
     return code
+
+
+@cached
+def do_orbit(task, run, strokes_per_map, mirrored, most, tolerance, vectors, modes, found):
+    """Find a fixed point, take its image or a cycle from it: one entry, compiled once."""
+    if task == FIND:
+        return find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, found)
+    if task == CYCLE:
+        return cycle_from(run, vectors, found)
+    return image_of(run, strokes_per_map, mirrored, vectors)

@@ -1,0 +1,75 @@
+"""Bifurcation diagrams."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.performance import UNITS
+from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new, finish
+
+if TYPE_CHECKING:
+    from saleg.continuation import Branch
+
+UNSTABLE_COLOUR = "#CC3311"
+#: Factor from SI and unit people read, by SI unit.
+READ = {"m": (1e3, "mm"), "W": (1e-3, "kW"), "Pa": (1e-5, "bar")}
+
+
+def bifurcation(branch: Branch, figure: str = "stroke", ax: Any = None) -> Any:
+    """A figure of the steady states along a parameter: solid where stable, dashed where not.
+
+    Parameters
+    ----------
+    branch : Branch
+    figure : str
+        Field of :class:`saleg.Performance`.
+    ax : matplotlib Axes, optional
+        Drawn into; a new one unless given.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    ax = axes_or_new(ax)
+    table = branch.table
+    factor, unit = READ.get(UNITS[figure], (1.0, UNITS[figure]))
+    x, y = table[branch.path].to_numpy(), factor * table[figure].to_numpy()
+    stable = table["stable"].to_numpy()
+    for begin, end in _pieces(stable):
+        steady = bool(stable[min(begin + 1, len(stable) - 1)])
+        ax.plot(
+            x[begin : end + 1],
+            y[begin : end + 1],
+            color=TRANSLATOR_COLOUR if steady else UNSTABLE_COLOUR,
+            linestyle="-" if steady else "--",
+        )
+    ax.plot([], [], color=TRANSLATOR_COLOUR, label="stable")
+    if not stable.all():
+        ax.plot([], [], color=UNSTABLE_COLOUR, linestyle="--", label="unstable")
+    for value, kind in branch.stability_changes:
+        at = _at(branch, value, x, y)
+        ax.plot([value], [at], "o", color="black", label=f"{kind} at {value:.4g}")
+    ax.set_xlabel(f"{branch.path} [{branch.unit}]")
+    ax.set_ylabel(f"{figure.replace('_', ' ')} [{unit}]")
+    return finish(ax, f"{branch.engine.name}: steady states", "best")
+
+
+def _at(branch: Branch, value: float, x: np.ndarray, y: np.ndarray) -> float:
+    """Figure where stability changes, between the two points of the branch around it."""
+    stable = np.array([point.stability.stable for point in branch.points])
+    changes = np.flatnonzero(stable[1:] != stable[:-1])
+    i = min(changes, key=lambda n: abs(0.5 * (x[n] + x[n + 1]) - value))
+    share = (value - x[i]) / (x[i + 1] - x[i]) if x[i + 1] != x[i] else 0.5
+    return float(y[i] + min(max(share, 0.0), 1.0) * (y[i + 1] - y[i]))
+
+
+def _pieces(stable: np.ndarray) -> list[tuple[int, int]]:
+    """First and last index of the pieces of one kind; neighbours share the point between them."""
+    changes = [0, *(np.flatnonzero(stable[1:] != stable[:-1]) + 1), len(stable) - 1]
+    return [
+        (max(int(begin) - (begin > 0), 0), int(end) - (end < len(stable) - 1))
+        for begin, end in itertools.pairwise(changes)
+    ]
