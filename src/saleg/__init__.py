@@ -44,7 +44,16 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     """Import the heavier parts on first use: ``saleg.plotting``, ``saleg.reference``..."""
-    if name in ("continuation", "export", "fundamental", "plotting", "reference", "studies"):
+    if name in (
+        "continuation",
+        "design",
+        "export",
+        "fundamental",
+        "plotting",
+        "reference",
+        "studies",
+        "sweep",
+    ):
         import importlib
 
         return importlib.import_module(f"saleg.{name}")

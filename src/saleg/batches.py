@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import nullcontext
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.performance import Performance
 from saleg.simulate import simulate
 from saleg.status import Status
-from saleg.steady import steady_state
+from saleg.steady import SteadyState, steady_state
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -32,7 +32,9 @@ UNDER_WAY = 3
 #: Figures that need the whole history of a cycle; a batch leaves them out.
 NOT_IN_ROWS = ("adverse_work",)
 
+T = TypeVar("T")
 Row = dict[str, Any]
+Columns = dict[str, list[Any]]
 
 UNITS = {
     "status": "-",
@@ -126,8 +128,14 @@ def simulate_many(
 
 def _steady_row(engine: Engine, rtol: float, multipliers: bool) -> Row:
     """Row of a steady state."""
-    found = steady_state(engine, rtol=rtol)
-    row = _row(found.status, found.message, found.quick_performance)
+    return steady_row(steady_state(engine, rtol=rtol), multipliers)
+
+
+def steady_row(
+    found: SteadyState, multipliers: bool, performance: Performance | None = None
+) -> Row:
+    """Row of a steady state found or not; figures of the orbit unless others are given."""
+    row = _row(found.status, found.message, performance or found.quick_performance)
     row["method"] = found.method
     row["half_cycles"] = float(found.half_cycles)
     row["evaluations"] = float(found.evaluations)
@@ -156,22 +164,22 @@ def _row(status: Status, message: str, performance: Performance) -> Row:
     return {"status": str(status), "message": message, **kept}
 
 
-def _rows(one: Callable[[Engine], Row], engines: Sequence[Engine]) -> dict[str, list[Any]]:
+def rows_of(one: Callable[[T], Row], items: Sequence[T]) -> Columns:
     """Rows of a chunk, column by column; what cannot even begin is a row too."""
-    columns: dict[str, list[Any]] = {}
-    for count, engine in enumerate(engines):
+    columns: Columns = {}
+    for count, item in enumerate(items):
         try:
-            row = one(engine)
-        except SalegError as error:
+            row = one(item)
+        except (SalegError, ArithmeticError) as error:
             row = {"status": str(Status.INVALID), "message": str(error)}
         for name in row:
-            columns.setdefault(name, [_missing(columns, name)] * count)
+            columns.setdefault(name, [missing(columns, name)] * count)
         for name, values in columns.items():
-            values.append(row.get(name, _missing(columns, name)))
+            values.append(row.get(name, missing(columns, name)))
     return columns
 
 
-def _missing(columns: Mapping[str, Sequence[Any]], name: str) -> Any:
+def missing(columns: Mapping[str, Sequence[Any]], name: str) -> Any:
     """What stands in a column where a row has no entry."""
     if name in ("method", "kind"):
         return ""
@@ -194,13 +202,13 @@ def _table(
     own = ThreadPoolExecutor(count) if executor is None else nullcontext(executor)
     parts: dict[str, list[np.ndarray]] = {}
     length = 0
-    with own as pool, _progress(engines) as bar:
-        for columns in _in_order(pool, partial(_rows, one), _chunks(one, engines, chunk), count):
+    with own as pool, progress_bar(engines) as bar:
+        for columns in _in_order(pool, partial(rows_of, one), _chunks(one, engines, chunk), count):
             rows = len(columns["status"])
             for name in {**columns, **parts}:
                 earlier = parts.setdefault(name, _filled(name, length))
-                values = columns.get(name, [_missing(columns, name)] * rows)
-                earlier.append(np.asarray(values, dtype=_kind(name)))
+                values = columns.get(name, [missing(columns, name)] * rows)
+                earlier.append(np.asarray(values, dtype=kind_of(name)))
             length += rows
             if bar is not None:
                 bar.update(rows)
@@ -211,10 +219,11 @@ def _table(
 
 
 def _filled(name: str, length: int) -> list[np.ndarray]:
-    return [np.full(length, _missing({}, name), dtype=_kind(name))] if length else []
+    return [np.full(length, missing({}, name), dtype=kind_of(name))] if length else []
 
 
-def _kind(name: str) -> type:
+def kind_of(name: str) -> type:
+    """Type of the values in a column."""
     if name in ("status", "message", "method", "kind"):
         return object
     return bool if name == "stable" else float
@@ -237,18 +246,18 @@ def _chunks(
                 continue  # its row will say why
             if kernel not in known:
                 known.add(kernel)
-                _rows(one, [engine])
+                rows_of(one, [engine])
         yield taken
 
 
 def _in_order(
     pool: Executor,
-    work: Callable[[Sequence[Engine]], dict[str, list[Any]]],
+    work: Callable[[Sequence[Engine]], Columns],
     chunks: Iterator[list[Engine]],
     workers: int,
-) -> Iterator[dict[str, list[Any]]]:
+) -> Iterator[Columns]:
     """Results in the order of the chunks, with no more under way than keeps the workers busy."""
-    waiting: deque[Future[dict[str, list[Any]]]] = deque()
+    waiting: deque[Future[Columns]] = deque()
     try:
         for taken in chunks:
             waiting.append(pool.submit(work, taken))
@@ -261,7 +270,7 @@ def _in_order(
             future.cancel()
 
 
-def _progress(engines: Iterable[Engine]) -> Any:
+def progress_bar(engines: Iterable[Any]) -> Any:
     """Progress bar for batches longer than a second of waiting, on a terminal only."""
     if not sys.stderr.isatty():
         return nullcontext()

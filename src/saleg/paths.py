@@ -63,7 +63,7 @@ def replace(engine: Engine, changes: Mapping[str, Any]) -> Engine:
             unknown.append(str(error))
             continue
         for target in found:
-            engine = _set(engine, target, changes[path])
+            engine = with_value(engine, target, changes[path])
     if unknown:
         raise UnknownPath("\n".join(unknown))
     return engine
@@ -95,7 +95,7 @@ def _targets(engine: Engine, path: str) -> list[tuple[str, ...]]:
     else:
         chain = _expand(path, CHAMBER_ALIASES)
         candidates = [("left", *chain), ("right", *chain)]
-    found = [chain for chain in candidates if _exists(engine, chain)]
+    found = [chain for chain in candidates if exists(engine, chain)]
     if not found:
         raise UnknownPath(_suggestion(engine, path))
     return found
@@ -106,7 +106,8 @@ def _expand(path: str, aliases: Mapping[str, str]) -> tuple[str, ...]:
     return tuple((aliases.get(first, first) + dot + rest).split("."))
 
 
-def _exists(node: Any, chain: tuple[str, ...]) -> bool:
+def exists(node: Any, chain: tuple[str, ...]) -> bool:
+    """Whether a chain of fields leads anywhere in a tree of dataclasses."""
     for name in chain:
         if not dataclasses.is_dataclass(node):
             return False
@@ -122,10 +123,11 @@ def _walk(node: Any, chain: tuple[str, ...]) -> Any:
     return node
 
 
-def _set(node: Any, chain: tuple[str, ...], value: Any) -> Any:
+def with_value(node: Any, chain: tuple[str, ...], value: Any) -> Any:
+    """Copy of a tree of dataclasses with the value at the end of a chain of fields replaced."""
     if not chain:
         return value
-    changed = _set(getattr(node, chain[0]), chain[1:], value)
+    changed = with_value(getattr(node, chain[0]), chain[1:], value)
     return dataclasses.replace(node, **{chain[0]: changed})
 
 

@@ -188,7 +188,7 @@ class ReturnMap:
     def vector(self, state: State) -> np.ndarray:
         """A state as a vector."""
         z = np.empty(layout.N_VECTOR)
-        write_vector(_Fields(state.engine[0]), [_Fields(c) for c in state.chambers], state.y, z)
+        write_vector(Fields(state.engine[0]), [Fields(c) for c in state.chambers], state.y, z)
         return z
 
     def jacobian(self, start: State, z: np.ndarray) -> np.ndarray:
@@ -210,7 +210,7 @@ class ReturnMap:
         return matrix
 
 
-class _Fields:
+class Fields:
     """A record with its fields as attributes, for the kernel's plain functions."""
 
     def __init__(self, record: Any):

@@ -167,32 +167,37 @@ def steady_state(
     >>> found.found, round(found.performance.frequency, 2), found.half_cycles < 20
     (True, 46.97, True)
     """
-    if not is_number(rtol) or not 1e-13 <= rtol <= 1e-3:
-        raise SettingsError(f"rtol = {rtol!r}: must be a number from 1e-13 to 1e-3")
+    check_tolerance(rtol)
     if not isinstance(most, (int, np.integer)) or most < 0:
         raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
     engine.validate()
     if not repeats_itself(engine):
-        return _waited_for(engine, rtol, 0, 0, "a law depends on time or counts charges")
+        return waited_for(engine, rtol, 0, 0, "a law depends on time or counts charges")
     return _solved(engine, rtol, most)
+
+
+def check_tolerance(rtol: float) -> None:
+    """Raise SettingsError for a tolerance that makes no sense."""
+    if not is_number(rtol) or not 1e-13 <= rtol <= 1e-3:
+        raise SettingsError(f"rtol = {rtol!r}: must be a number from 1e-13 to 1e-3")
 
 
 def _solved(engine: Engine, rtol: float, most: int) -> SteadyState:
     """Fixed point by iteration, from one start after the other; else Newton; else simulation."""
     mirrored = is_symmetric(engine)
     spent = evaluations = 0
-    for start in _starts(engine):
+    for start in starts(engine):
         state = prepare(replace(engine, start=start))
         chart = ReturnMap.of(engine, state, rtol, mirrored)
         code, found = chart.find(most, RESIDUAL * rtol)
         spent += int(found[0] * chart.strokes_per_map) + (2 if code == layout.END_OF_TIME else 0)
         evaluations += chart.evaluations
-        if _converged(code, found, rtol):
+        if converged(code, found, rtol):
             return result_of(chart, spent, evaluations, float(found[2]), "fixed point", rtol)
-    return _waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
+    return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
 
 
-def _starts(engine: Engine) -> Iterator[Start]:
+def starts(engine: Engine) -> Iterator[Start]:
     """Where to look from: near the target stroke, deeper and less deep, and the engine's own."""
     depth = float(getattr(engine.alternator, "target_stroke", 0.9))
     yield CompressedCharge(position=-min(max(depth, 0.5), 0.95), burning=1.0)
@@ -201,7 +206,7 @@ def _starts(engine: Engine) -> Iterator[Start]:
     yield CompressedCharge(position=-0.75, burning=1.0)
 
 
-def _converged(code: int, found: np.ndarray, tolerance: float) -> bool:
+def converged(code: int, found: np.ndarray, tolerance: float) -> bool:
     """Whether a fixed point was found and a whole cycle from it comes back to it."""
     return code == layout.END_OF_TIME and found[2] <= MOST_MISSED * tolerance
 
@@ -242,7 +247,7 @@ def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
     return Status.STEADY, "steady:"
 
 
-def _waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
+def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
     run = simulate(engine, FALLBACK_DURATION, rtol=rtol)
     steady = run.status in (Status.STEADY, Status.IDLING)

@@ -1,0 +1,196 @@
+"""A design: eight parameters, the laws of the engine, and models of the masses."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from saleg.design.formulas import port_clearance
+from saleg.design.masses import MassModel
+from saleg.design.parameters import Parameters
+from saleg.engine import Engine
+from saleg.errors import UnknownPath, WrongFields
+from saleg.laws import BlairViscousFriction
+from saleg.machines import thesis_base
+from saleg.paths import exists, known_paths, with_value
+from saleg.paths import get as get_path
+from saleg.paths import unit as unit_of_path
+from saleg.quantities import Problem, is_number, problems
+
+MASSES = "masses"
+NAMES = tuple(item.name for item in fields(Parameters))
+
+
+class InvalidDesign(WrongFields):
+    """A design with fields out of range; `problems` lists them all."""
+
+    whole = "design"
+
+
+def thesis_laws() -> Engine:
+    """Laws behind the designs of Chapter 4; its dimensions are those of the base case.
+
+    The friction of Eq. 40 with 13.7 kg/m^2/s and a load constant of 70 N s/m, for every design:
+    both are inferred (docs/physics.md).
+
+    Returns
+    -------
+    Engine
+
+    Examples
+    --------
+    >>> thesis_laws().get("friction.factor")
+    13.7
+    """
+    base = thesis_base()
+    return base.replace(
+        friction=BlairViscousFriction(factor=13.7),
+        name="design",
+        **{"alternator.load_constant": 70.0},
+    )
+
+
+@dataclass(frozen=True)
+class Design:
+    """A design before its steady state, hence its moving mass, is known.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The eight of Table 8.
+    laws : Engine
+        Everything else: laws and empirical constants. What the eight parameters say, and the
+        moving mass, is replaced. It must be mirrored.
+    masses : MassModel
+        How heavy the components are.
+
+    Examples
+    --------
+    >>> design = Design().replace({"bore": 0.07, "heat_transfer.a": 90.0})
+    >>> design.parameters.bore, design.get("heat_transfer.a")
+    (0.07, 90.0)
+    """
+
+    parameters: Parameters = field(default_factory=Parameters)
+    laws: Engine = field(default_factory=thesis_laws)
+    masses: MassModel = field(default_factory=MassModel)
+
+    def engine(self, moving_mass: float) -> Engine:
+        """The engine of this design with a given moving mass [kg]."""
+        p, laws = self.parameters, self.laws
+        side: Any = laws.left
+        springs: Any = laws.springs
+        cylinder = dataclasses.replace(
+            side,
+            bore=p.bore,
+            half_stroke=p.half_stroke,
+            port_closing=port_clearance(p.port_location, p.half_stroke),
+            equivalence_ratio=p.equivalence_ratio,
+            intake=dataclasses.replace(
+                side.intake, pressure=p.intake_pressure, temperature=p.intake_temperature
+            ),
+            gas_exchange=dataclasses.replace(side.gas_exchange, egr=p.egr),
+        )
+        return dataclasses.replace(
+            laws,
+            translator=dataclasses.replace(laws.translator, mass=moving_mass),
+            left=cylinder,
+            right=cylinder,
+            springs=dataclasses.replace(springs, stiffness=p.spring_stiffness),
+        )
+
+    def get(self, path: str) -> Any:
+        """Value of a parameter, of ``masses...``, or at a path of the engine (SI)."""
+        node, chain = self._place(path)
+        if chain is None:
+            return get_path(self.laws, path)
+        for name in chain:
+            node = getattr(node, name)
+        return node
+
+    def unit(self, path: str) -> str:
+        """Unit of the number at a path, "-" if it has none."""
+        node, chain = self._place(path)
+        if chain is None:
+            return unit_of_path(self.laws, path)
+        for name in chain[:-1]:
+            node = getattr(node, name)
+        item = next(item for item in fields(node) if item.name == chain[-1])
+        limits = item.metadata.get("limits")
+        return "-" if limits is None else str(limits.unit)
+
+    def replace(self, values: Mapping[str, Any] | None = None, **more: Any) -> Design:
+        """Copy with some values replaced.
+
+        Parameters
+        ----------
+        values, **more
+            By name: one of the eight parameters, a path of the engine such as
+            ``"heat_transfer.a"``, or of the mass models such as ``"masses.alternator.density"``.
+
+        Returns
+        -------
+        Design
+
+        Raises
+        ------
+        UnknownPath
+            With the nearest existing names; or if the eight parameters decide about that path.
+        """
+        changes = {**(values or {}), **more}
+        own = {name: value for name, value in changes.items() if name in NAMES}
+        design = dataclasses.replace(self, parameters=dataclasses.replace(self.parameters, **own))
+        for path, value in changes.items():
+            if path not in NAMES:
+                design = design._with(path, value)
+        return design
+
+    def _with(self, path: str, value: Any) -> Design:
+        _, chain = self._place(path)
+        if chain is not None:
+            return dataclasses.replace(self, masses=with_value(self.masses, chain, value))
+        changed = dataclasses.replace(self, laws=self.laws.replace(**{path: value}))
+        if is_number(value) and get_path(changed.engine(math.nan), path) is not value:
+            raise UnknownPath(
+                f"'{path}' follows from the eight parameters ({', '.join(NAMES)}) and the loop"
+            )
+        return changed
+
+    def _place(self, path: str) -> tuple[Any, tuple[str, ...] | None]:
+        """Where a path leads in parameters or masses; no chain if it is one of the engine's."""
+        if path in NAMES:
+            return self.parameters, (path,)
+        first, _, rest = str(path).partition(".")
+        if first == MASSES:
+            chain = tuple(rest.split("."))
+            if not exists(self.masses, chain):
+                raise UnknownPath(f"no '{path}' in the mass models")
+            return self.masses, chain
+        if path not in known_paths(self.laws):
+            near = difflib.get_close_matches(str(path), [*NAMES, *known_paths(self.laws)], n=3)
+            hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else ""
+            raise UnknownPath(f"no '{path}' in a design{hint}")
+        return self.laws, None
+
+    def validate(self) -> None:
+        """Raise one error naming every wrong field of parameters, masses and laws.
+
+        Raises
+        ------
+        InvalidDesign
+        InvalidEngine
+        """
+        found = problems(self.parameters) + problems(self.masses, MASSES)
+        for slot in fields(self.masses):
+            model = getattr(self.masses, slot.name)
+            if not callable(getattr(model, "mass", None)):
+                found.append(Problem(f"masses.{slot.name}", model, "-", "must have a method mass"))
+        if not self.laws.is_mirrored:
+            found.append(Problem("laws", self.laws.name, "-", "must be a mirrored engine"))
+        if found:
+            raise InvalidDesign(found)
+        self.engine(1.0).validate()

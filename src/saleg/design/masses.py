@@ -1,0 +1,178 @@
+"""Masses of the moving components, each a replaceable model.
+
+A mass model is any frozen dataclass of numbers with a method ``mass(parameters, operation)``; the
+operation (stroke, frequency, power) is that of the steady state the mass itself leads to.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple, Protocol
+
+from saleg.design import formulas
+from saleg.design.operation import Operation
+from saleg.design.parameters import Parameters
+from saleg.quantities import quantity
+
+
+class ComponentMass(Protocol):
+    """What a model of one component's mass offers."""
+
+    def mass(self, parameters: Parameters, operation: Operation) -> float:
+        """Moving mass of the component [kg]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class AlternatorMover:
+    """Tubular magnet mover sized for the steady state (Eq. 60).
+
+    ``m = rho pi/4 (D_o^2 - D_i^2) 2 S`` with pole pitch and half length equal to the stroke.
+
+    Parameters
+    ----------
+    specific_thrust : float
+        Specific thrust force f_xr [N/m^2].
+    poles : float
+        Number of poles [-].
+    efficiency : float
+        Rated efficiency [-].
+    inner_ratio : float
+        Inner over outer diameter [-].
+    density : float
+        Effective density on that volume [kg/m^3]; the thesis gives none. 900 is inferred from
+        Table 9, whose columns scatter between 850 and 1070.
+
+    Examples
+    --------
+    >>> mover = AlternatorMover()
+    >>> round(mover.mass(Parameters(), Operation(0.1807, 47.0, 22.6e3)), 3)
+    0.804
+    """
+
+    specific_thrust: float = quantity(
+        "N/m^2", default=formulas.SPECIFIC_THRUST, low=0, open_low=True
+    )
+    poles: float = quantity("-", default=2.0, low=0, open_low=True)
+    efficiency: float = quantity("-", default=0.95, low=0, high=1, open_low=True)
+    inner_ratio: float = quantity("-", default=0.8, low=0, high=1, open_high=True)
+    density: float = quantity("kg/m^3", default=900.0, low=0)
+
+    def outer_diameter(self, operation: Operation) -> float:
+        """Outer diameter D_o [m] (Eq. 60); zero where no power is delivered."""
+        if operation.power <= 0.0:
+            return 0.0
+        return formulas.alternator_diameter(
+            operation.power,
+            operation.stroke,
+            operation.mean_speed,
+            poles=self.poles,
+            specific_thrust=self.specific_thrust,
+            efficiency=self.efficiency,
+        )
+
+    def mass(self, parameters: Parameters, operation: Operation) -> float:
+        """Mass of the mover [kg]."""
+        outer = self.outer_diameter(operation)
+        area = 0.25 * math.pi * outer**2 * (1.0 - self.inner_ratio**2)
+        return self.density * area * 2.0 * operation.stroke
+
+
+@dataclass(frozen=True)
+class PistonHeads:
+    """Both piston heads (Eq. 65)."""
+
+    def mass(self, parameters: Parameters, operation: Operation) -> float:
+        """Mass of both heads [kg]."""
+        return formulas.piston_mass(parameters.bore)
+
+
+@dataclass(frozen=True)
+class ConnectingRod:
+    """Rod from piston to piston (Eq. 62, 63, 66).
+
+    Parameters
+    ----------
+    per_length : float
+        Mass per length [kg/m]: 75 mm^2 of steel.
+    """
+
+    per_length: float = quantity("kg/m", default=0.585, low=0)
+
+    def mass(self, parameters: Parameters, operation: Operation) -> float:
+        """Mass of the rod [kg]."""
+        bearing = formulas.bearing_position(operation.stroke, parameters.half_stroke)
+        return formulas.rod_mass(formulas.crown_position(bearing), self.per_length)
+
+
+@dataclass(frozen=True)
+class MechanicalSprings:
+    """Springs whose moving mass grows with their stiffness (Eq. 67).
+
+    Parameters
+    ----------
+    per_stiffness : float
+        Mass per stiffness [kg m/N].
+    """
+
+    per_stiffness: float = quantity("kg m/N", default=10.0 / 350e3, low=0)
+
+    def mass(self, parameters: Parameters, operation: Operation) -> float:
+        """Moving mass of the springs [kg]."""
+        return formulas.spring_mass(parameters.spring_stiffness, self.per_stiffness)
+
+
+@dataclass(frozen=True)
+class AirSprings:
+    """Springs of the same stiffness without moving mass, as bounce chambers would be (4.4)."""
+
+    def mass(self, parameters: Parameters, operation: Operation) -> float:
+        """Moving mass [kg]: none."""
+        return 0.0
+
+
+class Masses(NamedTuple):
+    """Moving masses by component [kg]."""
+
+    alternator: float
+    pistons: float
+    rod: float
+    springs: float
+
+    @property
+    def total(self) -> float:
+        """Moving mass of the translator [kg]."""
+        return self.alternator + self.pistons + self.rod + self.springs
+
+
+@dataclass(frozen=True, kw_only=True)
+class MassModel:
+    """The models of all components.
+
+    Parameters
+    ----------
+    alternator : AlternatorMover
+        Also gives the diameters of the mover.
+    pistons, rod, springs : ComponentMass
+        Anything with a method ``mass(parameters, operation)``.
+
+    Examples
+    --------
+    >>> light = MassModel(springs=AirSprings())
+    >>> light.masses(Parameters(), Operation(0.18, 47.0, 22e3)).springs
+    0.0
+    """
+
+    alternator: AlternatorMover = field(default_factory=AlternatorMover)
+    pistons: ComponentMass = field(default_factory=PistonHeads)
+    rod: ComponentMass = field(default_factory=ConnectingRod)
+    springs: ComponentMass = field(default_factory=MechanicalSprings)
+
+    def masses(self, parameters: Parameters, operation: Operation) -> Masses:
+        """Masses of the components at an operating point."""
+        return Masses(
+            alternator=self.alternator.mass(parameters, operation),
+            pistons=self.pistons.mass(parameters, operation),
+            rod=self.rod.mass(parameters, operation),
+            springs=self.springs.mass(parameters, operation),
+        )

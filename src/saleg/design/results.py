@@ -1,0 +1,113 @@
+"""A steady state with the component design that belongs to it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from typing import Any
+
+from saleg.design.designs import Design
+from saleg.design.geometry import Geometry
+from saleg.design.masses import Masses
+from saleg.design.operation import Operation
+from saleg.fundamental.bridge import from_engine
+from saleg.performance import Performance
+from saleg.status import Status
+from saleg.steady import SteadyState
+
+
+@dataclass(eq=False, kw_only=True)
+class DesignedState(SteadyState):
+    """Steady state of a design, with masses and dimensions that follow from it.
+
+    All of :class:`saleg.SteadyState`, and:
+
+    Attributes
+    ----------
+    design : Design
+    operation : Operation
+        Stroke, frequency and power the components were sized for.
+    masses : Masses
+        Moving masses by component at that operation [kg].
+    mass_error : float
+        Sum of `masses` over the moving mass the orbit was computed with, less one [-].
+    """
+
+    design: Design = field(repr=False)
+    operation: Operation
+    masses: Masses
+    mass_error: float
+
+    @classmethod
+    def of(cls, steady: SteadyState, design: Design, operation: Operation) -> DesignedState:
+        """A steady state, seen as that of a design."""
+        held = {item.name: getattr(steady, item.name) for item in fields(SteadyState)}
+        masses = design.masses.masses(design.parameters, operation)
+        error = masses.total / steady.moving_mass - 1.0
+        return cls(**held, design=design, operation=operation, masses=masses, mass_error=error)
+
+    @cached_property
+    def geometry(self) -> Geometry:
+        """Dimensions (Table 7)."""
+        return Geometry.of(self.design.parameters, self.design.masses.alternator, self.operation)
+
+    @property
+    def shown_performance(self) -> Performance:
+        """Figures of the orbit; where there is none, those of the last simulated cycle.
+
+        The latter are no steady state: they show how far from one the engine is.
+        """
+        unsettled = self.status is Status.UNSTEADY and self.fallback is not None
+        return self.fallback.performance if unsettled else self.quick_performance  # type: ignore[union-attr]
+
+    @property
+    def component_figures(self) -> dict[str, float]:
+        """What the design adds to the figures of the cycle; units in :data:`UNITS`."""
+        p, engine = self.shown_performance, self.engine
+        groups = from_engine(engine) if self.design.parameters.spring_stiffness > 0.0 else None
+        area = 0.25 * math.pi * self.design.parameters.bore**2
+        masses = {f"{name}_mass": value for name, value in self.masses._asdict().items()}
+        figures: dict[str, float] = {
+            "power_density": p.power / self.moving_mass,
+            "displacement": 2.0 * area * p.stroke,
+            "relative_stroke": p.stroke / engine.maximum_stroke,
+            "alternator_diameter": self.geometry.mover_outer_diameter,
+            "engine_length": self.geometry.length,
+            **masses,
+            "mass_error": self.mass_error,
+            "stroke_to_bore": engine.maximum_stroke / self.design.parameters.bore,
+        }
+        for name in GROUPS[1:3]:
+            figures[name] = math.nan
+        figures["frequency_ratio"] = math.nan
+        if groups is not None:
+            figures["dimensionless_pressure"] = groups.intake_pressure
+            figures["dimensionless_heat"] = groups.heat
+            figures["frequency_ratio"] = groups.frequency_ratio(p.frequency)
+        return figures
+
+    def draw(self, ax: Any = None) -> Any:
+        """Drawing of the engine to scale: see :func:`saleg.plotting.design.engine_drawing`."""
+        from saleg.plotting.design import engine_drawing
+
+        return engine_drawing(self.geometry, ax)
+
+
+#: The four dimensionless groups of Appendix C.
+GROUPS = ("stroke_to_bore", "dimensionless_pressure", "dimensionless_heat", "frequency_ratio")
+
+#: Units of :attr:`DesignedState.component_figures`.
+UNITS = {
+    "power_density": "W/kg",
+    "displacement": "m^3",
+    "relative_stroke": "-",
+    "alternator_diameter": "m",
+    "engine_length": "m",
+    "alternator_mass": "kg",
+    "pistons_mass": "kg",
+    "rod_mass": "kg",
+    "springs_mass": "kg",
+    "mass_error": "-",
+    **dict.fromkeys(GROUPS, "-"),
+}
