@@ -117,7 +117,7 @@ def read_toml(path: str | Path, laws: Sequence[type] = ()) -> Engine:
         Naming the file and every value out of range.
     """
     reader = _Reader(laws_by_slot(laws))
-    engine = reader.engine(_parsed(path))
+    engine = reader.engine(parsed(path))
     if reader.wrong or engine is None:
         raise EngineFileError(f"{path}:\n" + "\n".join(f"  {text}" for text in reader.wrong))
     try:
@@ -128,7 +128,8 @@ def read_toml(path: str | Path, laws: Sequence[type] = ()) -> Engine:
     return engine
 
 
-def _parsed(path: str | Path) -> dict[str, Any]:
+def parsed(path: str | Path) -> dict[str, Any]:
+    """Tables of a TOML file; raises EngineFileError if it is none."""
     try:
         text = Path(path).read_bytes().decode("utf-8-sig")
         return tomllib.loads(text)

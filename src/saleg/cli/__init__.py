@@ -1,4 +1,4 @@
-"""Command line: ``saleg run``, ``saleg list``, ``saleg fundamental``."""
+"""Command line: ``saleg run``, ``saleg list``, ``saleg fundamental``, ``saleg sweep``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 
-from saleg.cli import fundamental, listing, run
+from saleg.cli import fundamental, listing, run, sweep
 from saleg.errors import SalegError
 from saleg.version import __version__
 
@@ -60,6 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_to(commands)
     listing.add_to(commands)
     fundamental.add_to(commands)
+    sweep.add_to(commands)
     return parser
 
 

@@ -1,0 +1,80 @@
+"""``saleg sweep``: a parametric sweep from a file."""
+
+from __future__ import annotations
+
+import argparse
+from contextlib import nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from saleg.errors import SalegError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class WorkersError(SalegError, ValueError):
+    """A number of workers that makes no sense."""
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser's sub-commands."""
+    parser = commands.add_parser("sweep", help="evaluate every point of a sweep file")
+    add = parser.add_argument
+    add("file", type=Path, metavar="FILE.toml", help="what to sweep; see docs/sweeps.md")
+    add("--out", type=Path, metavar="DIR", help="folder of the results (FILE without .toml)")
+    add("--workers", type=int, metavar="N", help="how many work at once (all processors)")
+    add("--processes", action="store_true", help="work in processes, not threads")
+    parser.set_defaults(command=sweep)
+
+
+def sweep(options: argparse.Namespace) -> bool:
+    """Run or go on with a sweep; returns whether every point has a steady state."""
+    from saleg.sweep import run
+    from saleg.sweep.files import read
+
+    if options.workers is not None and options.workers < 1:
+        raise WorkersError(f"--workers {options.workers}: must be at least 1")
+    asked = read(options.file)
+    folder = options.out or options.file.with_suffix("")
+    with _executor(options) as pool:
+        table = run(
+            asked.points,
+            asked.swept,
+            folder=folder,
+            executor=pool,
+            workers=options.workers,
+            report=_say,
+            **asked.settings,
+        )
+    for status, count in table["status"].value_counts().items():
+        print(f"{count} {status}")
+    names = ["results.csv", *_pictures(table, folder)]
+    print(f"wrote {folder}: {', '.join(names)}")
+    return bool((table["status"] == "steady").all())
+
+
+def _executor(options: argparse.Namespace) -> Any:
+    """Processes if asked for; threads of this process are the sweep's own affair."""
+    if not options.processes:
+        return nullcontext()
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    return ProcessPoolExecutor(options.workers, mp_context=get_context("spawn"))
+
+
+def _say(done: int, total: int) -> None:
+    print(f"done {done} of {total}", flush=True)
+
+
+def _pictures(table: pd.DataFrame, folder: Path) -> list[str]:
+    """Panels over every input that has more than one value, if there is just one such input."""
+    varied = [name for name in table.attrs["inputs"] if len(table[name].unique()) > 1]
+    if len(varied) != 1 or "power_density" not in table:
+        return []
+    from saleg.plotting.sweeps import panels
+
+    figure = panels(table, varied[0])[0].figure
+    figure.savefig(folder / "panels.png")
+    return ["panels.png"]

@@ -1,0 +1,173 @@
+"""Sweeps as TOML files.
+
+::
+
+    [sweep]                 # all of it optional
+    machine = "thesis-base" # an engine with a fixed mass; without it, component design
+    multipliers = true
+    warm = false
+    chunk = 32
+    rtol = 1e-6
+
+    [fixed]                 # values by name, SI
+    equivalence_ratio = 0.5
+
+    [grid]                  # or [list], [latin_hypercube], [sobol]
+    bore = { from = 0.05, to = 0.08, count = 31 }
+    egr = [0.0, 0.1, 0.2]
+
+The two random sets take ``count``, ``seed`` and a table ``ranges`` of ``name = [low, high]``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.design.designs import Design
+from saleg.engine import Engine
+from saleg.files import nearest, parsed
+from saleg.machines import CATALOGUE
+from saleg.quantities import is_number
+from saleg.sweep.points import SweepError, grid, latin_hypercube, listed, sobol
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: Keys of [sweep] with their types.
+SETTINGS: dict[str, type | tuple[type, ...]] = {
+    "multipliers": bool,
+    "warm": bool,
+    "chunk": int,
+    "rtol": float,
+}
+RANDOM = ("count", "seed", "ranges")
+
+
+@dataclass(frozen=True, eq=False)
+class SweepFile:
+    """A sweep as a file has it.
+
+    Attributes
+    ----------
+    points : DataFrame
+    swept : Design or Engine
+    settings : dict
+        Keywords of :func:`saleg.sweep.run`.
+    """
+
+    points: pd.DataFrame
+    swept: Design | Engine
+    settings: dict[str, Any]
+
+
+def read(path: str | Path) -> SweepFile:
+    """Read a sweep file.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    SweepFile
+
+    Raises
+    ------
+    EngineFileError
+        If it is no TOML file.
+    SweepError
+        Naming the file and what is wrong in it.
+    UnknownPath
+        If there is no value of a name in ``[fixed]``.
+    """
+    tables = parsed(path)
+    try:
+        _known(tables, ["sweep", "fixed", *KINDS], "")
+        settings = _table(tables, "sweep")
+        _known(settings, ["machine", *SETTINGS], "sweep.")
+        kinds = [kind for kind in KINDS if kind in tables]
+        if len(kinds) != 1:
+            raise SweepError(f"needs one of {', '.join(f'[{kind}]' for kind in KINDS)}")
+        points = KINDS[kinds[0]](_table(tables, kinds[0]))
+        swept = _swept(settings, _table(tables, "fixed"))
+        return SweepFile(points, swept, _settings(settings))
+    except SweepError as error:
+        raise SweepError(f"{path}: {error}") from None
+
+
+def _swept(settings: Mapping[str, Any], fixed: Mapping[str, Any]) -> Design | Engine:
+    """Design or engine with its fixed values."""
+    wrong = [name for name, value in fixed.items() if not is_number(value)]
+    if wrong:
+        raise SweepError(f"fixed.{wrong[0]} = {fixed[wrong[0]]!r}: must be a number")
+    values = {name: float(value) for name, value in fixed.items()}
+    if "machine" not in settings:
+        return Design().replace(values)
+    name = settings["machine"]
+    if name not in CATALOGUE:
+        raise SweepError(f"no machine {name!r}{nearest(str(name), CATALOGUE)}")
+    return CATALOGUE[name]().replace(**values)
+
+
+def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
+    found = {}
+    for name, kind in SETTINGS.items():
+        if name in given:
+            if type(given[name]) is not kind:
+                raise SweepError(f"sweep.{name} = {given[name]!r}: must be a {kind}")
+            found[name] = given[name]
+    return found
+
+
+def _grid(table: Mapping[str, Any]) -> pd.DataFrame:
+    return grid({name: _values(name, held) for name, held in table.items()})
+
+
+def _values(name: str, held: Any) -> Any:
+    """Values of one input: a list, or from, to and count."""
+    if not isinstance(held, dict):
+        return held
+    ends: list[Any] = [held.get(key) for key in ("from", "to", "count")]
+    if set(held) != {"from", "to", "count"} or not all(map(is_number, ends)):
+        raise SweepError(f"{name} = {held}: needs the numbers from, to and count, and no more")
+    if not isinstance(ends[2], int) or ends[2] < 2:
+        raise SweepError(f"{name}: count = {ends[2]}: must be a whole number >= 2")
+    return list(np.linspace(*ends))
+
+
+def _random(
+    make: Callable[..., pd.DataFrame],
+) -> Callable[[Mapping[str, Any]], pd.DataFrame]:
+    def points(table: Mapping[str, Any]) -> pd.DataFrame:
+        _known(table, RANDOM, "")
+        return make(_table(table, "ranges"), table.get("count"), table.get("seed", 0))
+
+    return points
+
+
+#: Tables that give points, by name.
+KINDS: dict[str, Callable[[Mapping[str, Any]], Any]] = {
+    "grid": _grid,
+    "list": listed,
+    "latin_hypercube": _random(latin_hypercube),
+    "sobol": _random(sobol),
+}
+
+
+def _table(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
+    held = tables.get(name, {})
+    if not isinstance(held, dict):
+        raise SweepError(f"{name} = {held!r}: must be a table")
+    return held
+
+
+def _known(table: Mapping[str, Any], known: Any, where: str) -> None:
+    for key in table:
+        if key not in known:
+            hint = nearest(key, known) or f"; there are {', '.join(known)}"
+            raise SweepError(f"{where}{key}: unknown key{hint}")

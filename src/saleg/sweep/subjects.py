@@ -1,0 +1,107 @@
+"""What is swept: designs through the component loop, or an engine with a fixed mass."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+from saleg.batches import UNITS as STEADY_UNITS
+from saleg.batches import Row, steady_row
+from saleg.design.designs import Design
+from saleg.design.many import UNITS as DESIGN_UNITS
+from saleg.design.many import Follower
+from saleg.engine import Engine
+from saleg.paths import unit
+from saleg.steady import steady_state
+
+Values = Mapping[str, float]
+
+
+class Subject(Protocol):
+    """What a sweep needs to know of what it sweeps."""
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Units of the columns, in their order."""
+
+    def unit(self, name: str) -> str:
+        """Unit of an input; raises UnknownPath if there is none of that name."""
+
+    def describe(self) -> dict[str, Any]:
+        """All that decides about the results, as plain data."""
+
+    def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
+        """What makes a row of a point; may remember the point before."""
+
+
+@dataclasses.dataclass(frozen=True)
+class DesignSubject:
+    """Designs: inputs are the eight parameters, or paths of the engine and the mass models."""
+
+    design: Design
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Units of the columns."""
+        return DESIGN_UNITS
+
+    def unit(self, name: str) -> str:
+        """Unit of an input."""
+        return self.design.unit(name)
+
+    def describe(self) -> dict[str, Any]:
+        """Parameters, masses and laws."""
+        return {
+            "kind": "design",
+            "parameters": dataclasses.asdict(self.design.parameters),
+            "masses": {
+                item.name: repr(getattr(self.design.masses, item.name))
+                for item in dataclasses.fields(self.design.masses)
+            },
+            "laws": self.design.laws.to_toml(),
+        }
+
+    def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
+        """What makes a row of a point."""
+        return Follower(self.design, rtol, multipliers, warm)
+
+
+@dataclasses.dataclass(frozen=True)
+class EngineSubject:
+    """An engine as it stands: inputs are its paths, the moving mass among them."""
+
+    engine: Engine
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Units of the columns."""
+        return STEADY_UNITS
+
+    def unit(self, name: str) -> str:
+        """Unit of an input."""
+        return unit(self.engine, name)
+
+    def describe(self) -> dict[str, Any]:
+        """The engine."""
+        return {"kind": "engine", "laws": self.engine.to_toml()}
+
+    def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
+        """What makes a row of a point; every point is solved from the engine's own starts."""
+
+        def row(values: Values) -> Row:
+            found = steady_state(self.engine.replace(**values), rtol=rtol)
+            return steady_row(found, multipliers)
+
+        return row
+
+
+def subject_of(swept: Design | Engine | Subject | None) -> Subject:
+    """What is swept, as a subject; the designs of Chapter 4 if nothing is given."""
+    if swept is None:
+        return DesignSubject(Design())
+    if isinstance(swept, Design):
+        return DesignSubject(swept)
+    if isinstance(swept, Engine):
+        return EngineSubject(swept)
+    return swept

@@ -1,0 +1,111 @@
+"""Work sent out in pieces to any executor; what a lost worker had is done again."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    ThreadPoolExecutor,
+    wait,
+)
+from contextlib import nullcontext
+from typing import TypeVar
+
+Piece = TypeVar("Piece")
+Result = TypeVar("Result")
+
+#: Pieces under way for each worker.
+UNDER_WAY = 4
+#: What is raised in place of a result when workers, not the work, have failed.
+LOST = (BrokenExecutor, CancelledError, ConnectionError)
+
+
+def completed(
+    work: Callable[[Piece], Result],
+    pieces: Iterable[tuple[int, Piece]],
+    executor: Executor | None = None,
+    workers: int | None = None,
+) -> Iterator[tuple[int, Result]]:
+    """Results of numbered pieces as they are completed, in any order.
+
+    Parameters
+    ----------
+    work : callable
+        Done for every piece; a module-level function or a partial of one, so that it can travel.
+    pieces : iterable of (int, piece)
+        Taken as they are needed.
+    executor : concurrent.futures.Executor, optional
+        Threads, processes, ``client.get_executor()`` of a Dask cluster, an MPI pool; threads of
+        this process unless given.
+    workers : int, optional
+        How many work at once; as many as there are processors unless given.
+
+    Yields
+    ------
+    (int, result)
+
+    Warns
+    -----
+    RuntimeWarning
+        If the executor breaks; what it had is then done by threads of this process.
+    """
+    count = workers or os.cpu_count() or 1
+    own = ThreadPoolExecutor(count) if executor is None else nullcontext(executor)
+    lost: list[tuple[int, Piece]] = []
+    with own as pool:
+        yield from _sent_out(work, iter(pieces), pool, UNDER_WAY * count, lost)
+    if lost:
+        warnings.warn(
+            f"the executor broke; {len(lost)} pieces of work go on in threads of this process",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+        yield from completed(work, lost, None, count)
+
+
+def _sent_out(
+    work: Callable[[Piece], Result],
+    pieces: Iterator[tuple[int, Piece]],
+    pool: Executor,
+    most: int,
+    lost: list[tuple[int, Piece]],
+) -> Iterator[tuple[int, Result]]:
+    """Send pieces out, no more than `most` at a time; what gets lost is put into `lost`."""
+    waiting: dict[Future[Result], tuple[int, Piece]] = {}
+    try:
+        for piece in pieces:
+            if lost:
+                lost.append(piece)
+                continue
+            try:
+                waiting[pool.submit(work, piece[1])] = piece
+            except LOST:
+                lost.append(piece)
+            if len(waiting) >= most:
+                yield from _some(waiting, lost)
+        while waiting:
+            yield from _some(waiting, lost)
+    finally:
+        for future in waiting:
+            future.cancel()
+
+
+def _some(
+    waiting: dict[Future[Result], tuple[int, Piece]], lost: list[tuple[int, Piece]]
+) -> Iterator[tuple[int, Result]]:
+    """Wait for at least one result and give all there are."""
+    done, _ = wait(waiting, return_when=FIRST_COMPLETED)
+    for future in done:
+        piece = waiting.pop(future)
+        try:
+            result = future.result()
+        except LOST:
+            lost.append(piece)
+        else:
+            yield piece[0], result
