@@ -38,7 +38,7 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     """Import the heavier parts on first use: ``saleg.plotting``, ``saleg.reference``..."""
-    if name in ("export", "fundamental", "plotting", "reference", "studies"):
+    if name in ("export", "fundamental", "plotting", "reference", "sensitivity", "studies"):
         import importlib
 
         return importlib.import_module(f"saleg.{name}")

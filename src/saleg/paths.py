@@ -37,6 +37,26 @@ def get(engine: Engine, path: str) -> Any:
     return value
 
 
+def unit_of(engine: Engine, path: str) -> str:
+    """Unit of the number at a dotted path; "-" for pure numbers, laws and parts.
+
+    Raises
+    ------
+    UnknownPath
+        With the nearest existing names.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> unit_of(saleg.machines.thesis_base(), "intake.pressure")
+    'Pa'
+    """
+    *parents, name = _targets(engine, path)[0]
+    node = _walk(engine, tuple(parents))
+    limits = {item.name: item.metadata.get("limits") for item in dataclasses.fields(node)}[name]
+    return limits.unit if limits is not None else "-"
+
+
 def replace(engine: Engine, changes: Mapping[str, Any]) -> Engine:
     """Copy of an engine with the values at some dotted paths replaced."""
     unknown = []
