@@ -1,8 +1,8 @@
 """Figures of the studies of :mod:`saleg.sensitivity` (Figures 43 to 59 of the thesis).
 
 Curves are drawn of a :class:`saleg.sensitivity.Study`, trends of its table. What is stable has full
-lines and the marker o; what is not, broken lines and the marker x, at the foot of the axes where it
-has no figure at all.
+lines and the marker o; what is not, broken lines and the marker x, which lies on the axis itself
+where there is no figure at all.
 """
 
 from __future__ import annotations
@@ -62,8 +62,8 @@ REGULATED = ("stroke", "compression_ratio", "frequency", "power", "efficiency", 
 def pressure_volume(study: Study, ax: Axes | None = None) -> Axes:
     """Draw pressure [bar] over volume [cm^3] of the left chamber, one curve per value.
 
-    As Figures 46, 48, 49, 51, 52, 54 and 57. Volumes end where the ports do most of the work; widen
-    the axis to see the rest.
+    As Figures 46, 48, 49, 51, 52, 54 and 57. The axis shows the volumes near dead centre; widen it
+    to see the rest.
 
     Parameters
     ----------
@@ -224,7 +224,8 @@ def trends(
     """Draw figures of a study over what was varied, a panel for each figure.
 
     With several parameters (as Figures 43 and 50) over their values relative to the engine's, with
-    one (as Figure 55) over its value. Only stable points are joined.
+    one (as Figure 55) over its value. Only stable points are joined; a cross on the axis itself
+    stands for a value at which there is no figure, as the engine stalls.
 
     Parameters
     ----------
@@ -361,7 +362,7 @@ def _trend(ax: Axes, across: np.ndarray, up: np.ndarray, line: _Line) -> None:
     lost = across[~stable & ~shown]
     if len(lost):
         foot = ax.get_xaxis_transform()
-        ax.plot(lost, np.full(len(lost), 0.03), transform=foot, **crosses)
+        ax.plot(lost, np.zeros(len(lost)), transform=foot, clip_on=False, **crosses)
 
 
 def _explain(panels: np.ndarray, table: pd.DataFrame) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from saleg.engine import Engine
 from saleg.errors import UnknownPath
 from saleg.export.units import PERFORMANCE_UNITS
+from saleg.laws import Law
 from saleg.paths import unit_of
 from saleg.quantities import is_number
 from saleg.results import Run
@@ -201,12 +202,12 @@ def _cases(engine: Engine, change: Change, values: Values) -> Iterator[Case]:
 
 
 def _by_name(values: Values) -> Iterator[tuple[Any, Any]]:
-    """Names and values; a number is its own name, a law has that of its class."""
+    """Names and values; a law has the name of its class, all else is its own name."""
     if isinstance(values, Mapping):
         yield from values.items()
         return
     for value in values:
-        yield (value if is_number(value) else type(value).__name__), value
+        yield (type(value).__name__ if isinstance(value, Law) else value), value
 
 
 def _base(engine: Engine, change: Change) -> float:
