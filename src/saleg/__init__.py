@@ -42,9 +42,13 @@ __all__ = [
 ]
 
 
+#: Parts that are imported on first use.
+LAZY = ("continuation", "export", "fundamental", "plotting", "reference", "sensitivity", "studies")
+
+
 def __getattr__(name: str) -> object:
     """Import the heavier parts on first use: ``saleg.plotting``, ``saleg.reference``..."""
-    if name in ("continuation", "export", "fundamental", "plotting", "reference", "studies"):
+    if name in LAZY:
         import importlib
 
         return importlib.import_module(f"saleg.{name}")

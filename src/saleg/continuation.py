@@ -18,7 +18,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
-from saleg.paths import unit
+from saleg.paths import unit_of
 from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.prepare import State, prepare
 from saleg.return_map import NoReturn, ReturnMap, is_symmetric
@@ -95,7 +95,7 @@ class Branch:
     @property
     def unit(self) -> str:
         """Unit of the parameter."""
-        return unit(self.engine, self.path)
+        return unit_of(self.engine, self.path)
 
     @property
     def table(self) -> pd.DataFrame:
