@@ -199,7 +199,7 @@ class SealedCylinder(CombustionChamber):
 
     pressure: float = quantity("Pa", default=1e5, low=0, open_low=True)
     temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0)
-    curve_exponent: float = quantity("-", default=1.4, low=1, high=2, open_low=True)
+    curve_exponent: float = quantity("-", default=1.4, low=1, open_low=True)
 
     @property
     def filling(self) -> Filling:

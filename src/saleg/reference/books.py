@@ -412,6 +412,8 @@ class RunningEngine:
         if math.isfinite(self.x_dead_centre) and self.t > self.t_dead_centre:
             self.strokes.append(self._stroke_row())
             self._regulate()
+        elif math.isfinite(self.x_dead_centre):  # two at one instant: the translator is held
+            self.machine.stroke = 0.0
         self.machine.direction = -self.machine.direction
         self.spent = {
             side
