@@ -136,6 +136,34 @@ def test_the_energies_are_those_of_the_balance():
     assert verification.numeric["rejected"][1:].min() > 0.1
 
 
+def test_the_numeric_engine_settles_where_the_closed_form_does():
+    """At the attracting equilibrium the balances of a cycle are the same, term by term."""
+    system, start, _, _ = CASES["combined"]
+    (equilibrium,) = fm.equilibria(system)
+    verification = fm.verify(system, start, 200)
+    run, energy = verification.run, verification.scales.energy
+    assert run.status is Status.STEADY
+    stroke = 2.0 * equilibrium.depth * verification.scales.length
+    assert run.performance.stroke == pytest.approx(stroke, rel=AGREEMENT)
+    balance = fm.cycle_balance(verification.history)
+    for name, wanted in (
+        ("released", balance.heat),
+        ("alternator", balance.work),
+        ("heat_transfer", balance.heat_transfer),
+        ("exhaust", balance.rejected),
+    ):
+        assert getattr(run.energy, name) == pytest.approx(wanted * energy, rel=AGREEMENT)
+    assert_balanced(run)
+    # The numeric loops are sampled, and an instant combustion makes a step in them.
+    assert run.performance.adverse_work == pytest.approx(balance.adverse_work * energy, rel=0.01)
+
+
+def test_deviations_fall_with_the_tolerance():
+    system, start, strokes, _ = CASES["cosine, unequal strokes"]
+    worst = [fm.verify(system, start, strokes, rtol=rtol).worst for rtol in (1e-6, 1e-8, 1e-10)]
+    assert worst[0] > 10.0 * worst[1] > 100.0 * worst[2]
+
+
 def test_a_wrong_engine_is_noticed():
     """A part in a million of the load, of gamma or of the heat is seen."""
     system, start, strokes, _ = CASES["cosine, unequal strokes"]
