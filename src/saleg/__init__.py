@@ -6,7 +6,15 @@ stops exactly at its events; results only read. All quantities are in SI units.
 
 from saleg import laws, machines
 from saleg.batches import simulate_many, steady_states
-from saleg.engine import BounceChamber, Cylinder, Engine, Fuel, Intake, Translator
+from saleg.engine import (
+    BounceChamber,
+    Cylinder,
+    Engine,
+    Fuel,
+    Intake,
+    SealedCylinder,
+    Translator,
+)
 from saleg.errors import EngineFileError, InvalidEngine, LawError, SalegError, UnknownPath
 from saleg.performance import EnergyBalance, Performance
 from saleg.results import Run
@@ -28,6 +36,7 @@ __all__ = [
     "Performance",
     "Run",
     "SalegError",
+    "SealedCylinder",
     "Status",
     "SteadyState",
     "Translator",
