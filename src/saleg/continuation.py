@@ -128,7 +128,7 @@ class Branch:
         values = [point.value for point in self.points]
         ways = np.sign(np.diff(values))
         turns = np.flatnonzero(ways[1:] * ways[:-1] < 0.0) + 1
-        return [values[i] for i in turns]
+        return [float(values[i]) for i in turns]
 
     @property
     def stability_changes(self) -> list[tuple[float, str]]:
@@ -140,7 +140,7 @@ class Branch:
             unstable = b if a.stability.stable else a
             x, y = (math.log(_largest(point)) for point in (a, b))
             value = a.value - x * (b.value - a.value) / (y - x) if x != y else a.value
-            found.append((value, unstable.stability.kind))
+            found.append((float(value), unstable.stability.kind))
         return found
 
     def plot(self, figure: str = "stroke", ax: Any = None) -> Any:
