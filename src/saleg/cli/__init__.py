@@ -1,4 +1,4 @@
-"""Command line: ``saleg run``, ``saleg list``, ``saleg fundamental``."""
+"""Command line: ``saleg run``, ``saleg steady``, ``saleg list``, ``saleg fundamental``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 
-from saleg.cli import fundamental, listing, run
+from saleg.cli import fundamental, listing, run, steady
 from saleg.errors import SalegError
 from saleg.version import __version__
 
@@ -58,6 +58,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"saleg {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     run.add_to(commands)
+    steady.add_to(commands)
     listing.add_to(commands)
     fundamental.add_to(commands)
     return parser
