@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import saleg
-from saleg import BounceChamber, Cylinder, Engine, Fuel, Intake, Translator
+from saleg import BounceChamber, Cylinder, Engine, Fuel, Intake, SealedCylinder, Translator
 from saleg.files import SLOTS, laws_by_slot
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.quantities import quantity
@@ -54,7 +54,10 @@ lengths = {
 }
 chambers = st.one_of(
     instances(Cylinder, **lengths),
-    instances(BounceChamber, half_stroke=lengths["half_stroke"], head_gap=lengths["head_gap"]),
+    *(
+        instances(kind, half_stroke=lengths["half_stroke"], head_gap=lengths["head_gap"])
+        for kind in (SealedCylinder, BounceChamber)
+    ),
 )
 text = st.text(st.characters(exclude_categories=["Cs"]))
 

@@ -24,6 +24,7 @@ LAWS = [
     laws.Chang(),
     laws.Annand(),
     laws.NoHeatTransfer(),
+    laws.PolytropicLoss(),
     laws.Wiebe(),
     laws.DoubleWiebe(),
     laws.BurnProfile(),
@@ -50,6 +51,8 @@ LAWS = [
     laws.BlairViscousFriction(),
     laws.FrictionShare(),
     laws.LinearLoad(),
+    laws.ConstantForce(),
+    laws.CosineForce(),
     laws.CircuitAlternator(),
     laws.FluxProfile(cosines=(0.1, 0.02), sines=(0.03,)),
     laws.ForceMap(),
@@ -200,7 +203,36 @@ def test_ratio_of_heats_is_above_one(law):
 
 @of_slot("heat_transfer")
 def test_heat_flows_from_hot_to_cold(law):
+    if isinstance(law, laws.PolytropicLoss):  # its exponents say which way, not the wall
+        return
     assert all(law.coefficient(gas, CHARGE) >= 0.0 for gas in GASES)
+
+
+def test_polytropic_loss_makes_the_exponent():
+    """The rate of the pressure, by Eq. 48, is that along the polytrope of either way."""
+    law, gas = laws.PolytropicLoss(1.4, compression=1.3, expansion=1.5), GASES[1]
+    for rate, exponent in ((-3.0, 1.3), (3.0, 1.5)):
+        area = 2.0 * gas.V / gas.height + math.pi * gas.bore * gas.height
+        difference = gas.T - gas.wall_temperature
+        moving = gas._replace(height_rate=rate)
+        lost = law.coefficient(moving, CHARGE) * area * difference
+        assert lost > 0.0
+        growth = rate / gas.height
+        p_rate = -1.4 * gas.p * growth - 0.4 / gas.V * lost
+        assert p_rate == pytest.approx(-exponent * gas.p * growth, rel=1e-13)
+
+
+def test_cosine_force_takes_the_work_of_its_mean():
+    """Eq. 34: over the whole stroke a cosine of A takes as much as a constant 2 A / pi."""
+    from scipy.integrate import quad
+
+    law = laws.CosineForce(amplitude=1000.0, half_stroke=0.1)
+    there = quad(lambda x: law.force(1.0, Motion(0.0, x, 5.0, 1.0)), -0.1, 0.1)[0]
+    back = quad(lambda x: law.force(1.0, Motion(0.0, x, -5.0, -1.0)), 0.1, -0.1)[0]
+    constant = laws.ConstantForce(amplitude=2000.0 / math.pi)
+    wanted = 0.2 * constant.force(1.0, Motion(0.0, 0.0, 5.0, 1.0))
+    assert there == pytest.approx(wanted, rel=1e-12)
+    assert back == pytest.approx(wanted, rel=1e-12)
 
 
 @of_slot("heat_release")

@@ -6,7 +6,15 @@ stops exactly at its events; results only read. All quantities are in SI units.
 
 from saleg import laws, machines
 from saleg.batches import simulate_many, steady_states
-from saleg.engine import BounceChamber, Cylinder, Engine, Fuel, Intake, Translator
+from saleg.engine import (
+    BounceChamber,
+    Cylinder,
+    Engine,
+    Fuel,
+    Intake,
+    SealedCylinder,
+    Translator,
+)
 from saleg.errors import EngineFileError, InvalidEngine, LawError, SalegError, UnknownPath
 from saleg.performance import EnergyBalance, Performance
 from saleg.results import Run
@@ -28,6 +36,7 @@ __all__ = [
     "Performance",
     "Run",
     "SalegError",
+    "SealedCylinder",
     "Status",
     "SteadyState",
     "Translator",
@@ -42,18 +51,23 @@ __all__ = [
 ]
 
 
+#: Parts that are imported on first use.
+LAZY = (
+    "continuation",
+    "design",
+    "export",
+    "fundamental",
+    "plotting",
+    "reference",
+    "sensitivity",
+    "studies",
+    "sweep",
+)
+
+
 def __getattr__(name: str) -> object:
     """Import the heavier parts on first use: ``saleg.plotting``, ``saleg.reference``..."""
-    if name in (
-        "continuation",
-        "design",
-        "export",
-        "fundamental",
-        "plotting",
-        "reference",
-        "studies",
-        "sweep",
-    ):
+    if name in LAZY:
         import importlib
 
         return importlib.import_module(f"saleg.{name}")

@@ -18,7 +18,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
-from saleg.paths import unit
+from saleg.paths import unit_of
 from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.prepare import State, prepare
 from saleg.return_map import NoReturn, ReturnMap, is_symmetric
@@ -95,7 +95,7 @@ class Branch:
     @property
     def unit(self) -> str:
         """Unit of the parameter."""
-        return unit(self.engine, self.path)
+        return unit_of(self.engine, self.path)
 
     @property
     def table(self) -> pd.DataFrame:
@@ -128,7 +128,7 @@ class Branch:
         values = [point.value for point in self.points]
         ways = np.sign(np.diff(values))
         turns = np.flatnonzero(ways[1:] * ways[:-1] < 0.0) + 1
-        return [values[i] for i in turns]
+        return [float(values[i]) for i in turns]
 
     @property
     def stability_changes(self) -> list[tuple[float, str]]:
@@ -140,7 +140,7 @@ class Branch:
             unstable = b if a.stability.stable else a
             x, y = (math.log(_largest(point)) for point in (a, b))
             value = a.value - x * (b.value - a.value) / (y - x) if x != y else a.value
-            found.append((value, unstable.stability.kind))
+            found.append((float(value), unstable.stability.kind))
         return found
 
     def plot(self, figure: str = "stroke", ax: Any = None) -> Any:

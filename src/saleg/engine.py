@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from saleg.errors import InvalidEngine
 from saleg.laws import (
@@ -87,9 +87,25 @@ class Fuel:
     air_fuel_ratio: float = quantity("-", default=17.5, low=0, open_low=True)
 
 
+class Filling(NamedTuple):
+    """State in which the charge of a chamber is known: at port closing, or at the midpoint.
+
+    Attributes
+    ----------
+    pressure, temperature : float
+        [Pa], [K].
+    clearance : float
+        Distance between crown and head there [m].
+    """
+
+    pressure: float
+    temperature: float
+    clearance: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class Chamber:
-    """What combustion cylinder and bounce chamber have in common.
+    """What all chambers have in common.
 
     Parameters
     ----------
@@ -108,15 +124,18 @@ class Chamber:
     wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0)
     head_gap: float = quantity("m", default=1e-4, low=0, open_low=True)
 
+    @property
+    def filling(self) -> Filling:
+        """State in which its charge is known."""
+        raise NotImplementedError
+
 
 @dataclass(frozen=True, kw_only=True)
-class Cylinder(Chamber):
-    """A ported two-stroke combustion cylinder.
+class CombustionChamber(Chamber):
+    """What all chambers that burn fuel have in common.
 
     Parameters
     ----------
-    port_closing : float
-        Clearance between crown and head at which the ports close, d_po [m].
     equivalence_ratio : float
         Equivalence ratio of the charge, phi [-]; 0 cuts the fuel.
     combustion_efficiency : float
@@ -124,17 +143,14 @@ class Cylinder(Chamber):
     late_ignition : float
         1 if a charge that has not lit by its dead centre may still light itself later, while it is
         trapped; 0 if it may not [-].
-    intake : Intake
     fuel : Fuel
     gas_properties, heat_transfer, heat_release, ignition, gas_exchange, misfires : Law
-        The laws in the cylinder's slots.
+        The laws in the chamber's slots.
     """
 
-    port_closing: float = quantity("m", low=0, open_low=True)
     equivalence_ratio: float = quantity("-", default=0.6, low=0, high=10)
     combustion_efficiency: float = quantity("-", default=0.95, low=0, high=1)
     late_ignition: float = quantity("-", default=0.0, low=0, high=1)
-    intake: Intake = field(default_factory=Intake)
     fuel: Fuel = field(default_factory=Fuel)
     gas_properties: GasProperties = field(default_factory=ChangGas)
     heat_transfer: HeatTransfer = field(default_factory=Hohenberg)
@@ -142,6 +158,53 @@ class Cylinder(Chamber):
     ignition: Ignition = field(default_factory=CFRIgnition)
     gas_exchange: GasExchange = field(default_factory=InstantExchange)
     misfires: Misfires = field(default_factory=NoMisfires)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cylinder(CombustionChamber):
+    """A ported two-stroke combustion cylinder.
+
+    Parameters
+    ----------
+    port_closing : float
+        Clearance between crown and head at which the ports close, d_po [m].
+    intake : Intake
+    """
+
+    port_closing: float = quantity("m", low=0, open_low=True)
+    intake: Intake = field(default_factory=Intake)
+
+    @property
+    def filling(self) -> Filling:
+        """State of the fresh charge as the ports close."""
+        return Filling(self.intake.pressure, self.intake.temperature, self.port_closing)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SealedCylinder(CombustionChamber):
+    """A combustion chamber without ports, as Chapter 2 has it (2.3).
+
+    At its bottom dead centre its charge is replaced by a fresh one of the same mass, wherever that
+    is: heat is rejected in an instant, down to the curve ``p V^n`` through the midpoint state.
+
+    Parameters
+    ----------
+    pressure : float
+        Pressure of a fresh charge with the translator at its midpoint, P_mp [Pa].
+    temperature : float
+        Temperature there [K].
+    curve_exponent : float
+        Exponent n of the curve fresh charges lie on [-]; the ratio of specific heats in 2.3.
+    """
+
+    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True)
+    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0)
+    curve_exponent: float = quantity("-", default=1.4, low=1, open_low=True)
+
+    @property
+    def filling(self) -> Filling:
+        """State of a fresh charge at the midpoint."""
+        return Filling(self.pressure, self.temperature, self.half_stroke)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,6 +226,11 @@ class BounceChamber(Chamber):
     gas_properties: GasProperties = field(default_factory=ChangGas)
     heat_transfer: HeatTransfer = field(default_factory=NoHeatTransfer)
 
+    @property
+    def filling(self) -> Filling:
+        """State at the midpoint."""
+        return Filling(self.pressure, self.temperature, self.half_stroke)
+
 
 @dataclass(frozen=True)
 class Engine:
@@ -174,7 +242,7 @@ class Engine:
     Parameters
     ----------
     translator : Translator
-    left, right : Cylinder or BounceChamber
+    left, right : Cylinder, SealedCylinder or BounceChamber
     springs, friction, alternator : Law
         The laws in the engine's slots.
     start : Start
@@ -208,7 +276,7 @@ class Engine:
         Parameters
         ----------
         translator : Translator
-        chamber : Cylinder or BounceChamber
+        chamber : Cylinder, SealedCylinder or BounceChamber
             Used on both sides.
         **slots
             Further fields of :class:`Engine`.
@@ -231,8 +299,8 @@ class Engine:
 
     @property
     def fires(self) -> bool:
-        """Whether at least one chamber is a combustion cylinder."""
-        return any(isinstance(chamber, Cylinder) for chamber in self.chambers)
+        """Whether at least one chamber burns fuel."""
+        return any(isinstance(chamber, CombustionChamber) for chamber in self.chambers)
 
     @property
     def maximum_stroke(self) -> float:

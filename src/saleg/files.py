@@ -16,7 +16,15 @@ from typing import Any
 
 from saleg import laws as exported
 from saleg import start as starts
-from saleg.engine import BounceChamber, Cylinder, Engine, Fuel, Intake, Translator
+from saleg.engine import (
+    BounceChamber,
+    Cylinder,
+    Engine,
+    Fuel,
+    Intake,
+    SealedCylinder,
+    Translator,
+)
 from saleg.errors import EngineFileError, InvalidEngine
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.quantities import is_number
@@ -24,7 +32,9 @@ from saleg.start import Start
 
 #: Slots by name, with the base class of what fills them.
 SLOTS: dict[str, type] = {**CHAMBER_SLOTS, **ENGINE_SLOTS, "start": Start}
-CHAMBERS: dict[str, type] = {kind.__name__: kind for kind in (Cylinder, BounceChamber)}
+CHAMBERS: dict[str, type] = {
+    kind.__name__: kind for kind in (Cylinder, SealedCylinder, BounceChamber)
+}
 PARTS: dict[str, type] = {"translator": Translator, "intake": Intake, "fuel": Fuel}
 SIDES = ("cylinder", "left", "right")
 #: Keys of a table that say which class it stands for.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from saleg.engine import Cylinder, Engine
+from saleg.engine import Chamber, CombustionChamber, Engine
 
 if TYPE_CHECKING:
     from saleg.laws import HeatRelease
@@ -42,7 +42,7 @@ def timing(engine: Engine, strokes: np.ndarray) -> Timing:
     for row in strokes:
         side = 0 if row["direction"] < 0.0 else 1
         chamber = engine.chambers[side]
-        if row["ignition_time"][side] < 0.0 or not isinstance(chamber, Cylinder):
+        if row["ignition_time"][side] < 0.0 or not isinstance(chamber, CombustionChamber):
             continue
         before = float(row["t"] - row["ignition_time"][side])
         sign = 1.0 if side == 0 else -1.0
@@ -87,7 +87,7 @@ def adverse_work(engine: Engine, rows: np.ndarray) -> float:
     turn = int(np.argmax(rows["x"]))
     total = 0.0
     for side, chamber in enumerate(engine.chambers):
-        if not isinstance(chamber, Cylinder):
+        if not isinstance(chamber, CombustionChamber):
             continue
         to_right, to_left = rows[: turn + 1], rows[turn:]
         inward, outward = (to_right, to_left) if side == 1 else (to_left, to_right)
@@ -95,7 +95,7 @@ def adverse_work(engine: Engine, rows: np.ndarray) -> float:
     return total
 
 
-def _inverted_work(chamber: Cylinder, inward: np.ndarray, outward: np.ndarray, side: int) -> float:
+def _inverted_work(chamber: Chamber, inward: np.ndarray, outward: np.ndarray, side: int) -> float:
     """Integral of compression over expansion pressure, where it is higher [J].
 
     Both branches begin at dead centre and go outward.
@@ -111,14 +111,14 @@ def _inverted_work(chamber: Cylinder, inward: np.ndarray, outward: np.ndarray, s
     return float(np.trapezoid(excess * area * 2.0 * grid, grid))
 
 
-def _height(chamber: Cylinder, rows: np.ndarray, side: int) -> np.ndarray:
+def _height(chamber: Chamber, rows: np.ndarray, side: int) -> np.ndarray:
     return chamber.half_stroke + (1.0 if side == 0 else -1.0) * rows["x"]
 
 
 class _Branch:
     """Pressure of the closed chamber along one branch, by cubic pieces in w = sqrt(h - h_tdc)."""
 
-    def __init__(self, chamber: Cylinder, rows: np.ndarray, side: int, nearest: float, time: float):
+    def __init__(self, chamber: Chamber, rows: np.ndarray, side: int, nearest: float, time: float):
         height = _height(chamber, rows, side)
         beyond = height - nearest
         # The far dead centre of a chamber that stays closed is left out: there dp/dw is infinite.
@@ -173,7 +173,7 @@ def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
         (left.half_stroke + high) / (left.half_stroke + low),
         (right.half_stroke - low) / (right.half_stroke - high),
     ]
-    fired = [isinstance(chamber, Cylinder) for chamber in engine.chambers]
+    fired = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
     chosen = [
         ratio for ratio, counts in zip(ratios, fired, strict=True) if counts or not any(fired)
     ]

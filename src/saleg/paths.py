@@ -37,19 +37,24 @@ def get(engine: Engine, path: str) -> Any:
     return value
 
 
-def unit(engine: Engine, path: str) -> str:
-    """Unit of the number at a dotted path, "-" if it has none.
+def unit_of(engine: Engine, path: str) -> str:
+    """Unit of the number at a dotted path; "-" for pure numbers, laws and parts.
 
     Raises
     ------
     UnknownPath
         With the nearest existing names.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> unit_of(saleg.machines.thesis_base(), "intake.pressure")
+    'Pa'
     """
-    *above, name = _targets(engine, path)[0]
-    owner = _walk(engine, tuple(above))
-    field = next(item for item in dataclasses.fields(owner) if item.name == name)
-    limits = field.metadata.get("limits")
-    return "-" if limits is None else str(limits.unit)
+    *parents, name = _targets(engine, path)[0]
+    node = _walk(engine, tuple(parents))
+    limits = {item.name: item.metadata.get("limits") for item in dataclasses.fields(node)}[name]
+    return limits.unit if limits is not None else "-"
 
 
 def replace(engine: Engine, changes: Mapping[str, Any]) -> Engine:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import Cylinder, Engine
+from saleg.engine import CombustionChamber, Engine
 from saleg.indicators import adverse_work, cycle_compression_ratios, repeatability, timing
 
 nan = math.nan
@@ -159,7 +159,7 @@ class Performance:
         period = float(strokes["duration"].sum())
         power = float(strokes["electrical_energy"].sum()) / period
         fuel = float(strokes["fresh_fuel_energy"].sum())
-        cylinders = [isinstance(chamber, Cylinder) for chamber in engine.chambers]
+        cylinders = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
         work = float(strokes["gas_work"].sum())
         burn = timing(engine, strokes)
         stability, cr_change = repeatability(engine, run)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.errors import StartError
 from saleg.kernel import layout
 from saleg.kernel.compose import check_laws
@@ -139,8 +140,8 @@ def _stiffness(engine: Engine, length: float) -> float:
     ahead, behind = (engine.springs.force(Motion(0.0, x, 0.0, 0.0)) for x in (dx, -dx))
     total = max(-(ahead - behind) / (2.0 * dx), 0.0)
     for chamber in engine.chambers:
-        pressure = chamber.intake.pressure if hasattr(chamber, "intake") else chamber.pressure  # type: ignore[attr-defined]
-        total += 1.35 * pressure * math.pi * chamber.bore**2 / 4.0 / chamber.half_stroke
+        area = math.pi * chamber.bore**2 / 4.0
+        total += 1.35 * chamber.filling.pressure * area / chamber.half_stroke
     return float(total)
 
 
@@ -153,22 +154,20 @@ def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
     c.head_gap = chamber.head_gap
     c.gas_constant = chamber.gas_properties.gas_constant  # type: ignore[attr-defined]
     c.ignition_time = -1.0
-    if hasattr(chamber, "intake"):
-        c.port = chamber.port_closing  # type: ignore[attr-defined]
-        c.intake_pressure = chamber.intake.pressure
-        c.intake_temperature = chamber.intake.temperature
-        c.equivalence_ratio_wanted = chamber.equivalence_ratio  # type: ignore[attr-defined]
-        c.lower_heating_value = chamber.fuel.lower_heating_value  # type: ignore[attr-defined]
-        c.air_fuel_ratio = chamber.fuel.air_fuel_ratio  # type: ignore[attr-defined]
-        c.combustion_efficiency = chamber.combustion_efficiency  # type: ignore[attr-defined]
-        c.late_ignition = chamber.late_ignition  # type: ignore[attr-defined]
-    else:
-        c.port = math.inf
-        c.intake_pressure = chamber.pressure  # type: ignore[attr-defined]
-        c.intake_temperature = chamber.temperature  # type: ignore[attr-defined]
-        c.air_fuel_ratio = 1.0
-    full = c.port if math.isfinite(c.port) else c.half_stroke
-    c.p_closing, c.T_closing, c.V_closing = c.intake_pressure, c.intake_temperature, c.area * full
+    full = chamber.filling
+    c.p_closing = c.intake_pressure = full.pressure
+    c.T_closing = c.intake_temperature = full.temperature
+    c.V_closing = c.area * full.clearance
+    c.port = full.clearance if isinstance(chamber, Cylinder) else math.inf
+    c.air_fuel_ratio = 1.0
+    if isinstance(chamber, SealedCylinder):
+        c.curve_exponent = chamber.curve_exponent
+    if isinstance(chamber, CombustionChamber):
+        c.equivalence_ratio_wanted = chamber.equivalence_ratio
+        c.lower_heating_value = chamber.fuel.lower_heating_value
+        c.air_fuel_ratio = chamber.fuel.air_fuel_ratio
+        c.combustion_efficiency = chamber.combustion_efficiency
+        c.late_ignition = chamber.late_ignition
 
 
 def _fill_contents(c: Any, held: Contents, y: list[float], side: int) -> None:
@@ -177,5 +176,8 @@ def _fill_contents(c: Any, held: Contents, y: list[float], side: int) -> None:
     c.mass, c.fuel, c.air, c.burnt = held.mass, held.fuel, held.air, held.burnt
     c.equivalence_ratio = held.fuel * c.air_fuel_ratio / max(held.air, 1e-300)
     height = c.half_stroke + c.sign * y[layout.X]
+    if c.curve_exponent > 0.0:  # its charge is closed where it stands
+        c.p_closing, c.V_closing = held.pressure, c.area * height
+        c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
     theta = math.log(held.pressure) + layout.G0 * math.log(height / c.half_stroke)
     y[layout.THETA + side] = y[layout.MOTORED + side] = theta

@@ -76,6 +76,16 @@ def stability(steady: SteadyState) -> Stability:
     return judged(own, mirrored, period)
 
 
+def describe(found: Stability) -> str:
+    """Stability in a few lines of text."""
+    lines = [f"  stability                {found.kind:>10}"]
+    if len(found.multipliers):
+        lines.append(f"  largest multiplier       {abs(found.multipliers[0]):>10.3f} per cycle")
+    if math.isfinite(found.beat_period):
+        lines.append(f"  beat period              {1e3 * found.beat_period:>10.1f} ms")
+    return "\n".join(lines)
+
+
 def map_multipliers(steady: SteadyState, mirrored: bool) -> np.ndarray:
     """Multipliers of the return map itself, the largest first [-]."""
     assert steady.replay is not None

@@ -84,8 +84,8 @@ class Start:
 class CompressedCharge(Start):
     """At rest near a head, with a compressed charge there, burning or not.
 
-    The charge stands at ``p_in (d_po/d)^1.35``. If the chamber at that end is no cylinder but the
-    other one is, the mirror image is meant.
+    The charge stands at ``p_in (d_po/d)^1.35``. If the chamber at that end burns no fuel but the
+    other one does, the mirror image is meant. A sealed cylinder has its own exponent.
 
     Parameters
     ----------
@@ -101,13 +101,13 @@ class CompressedCharge(Start):
     def initial(self, engine: Engine) -> Initial:
         """State of the engine at time zero."""
         side = 0 if self.position < 0.0 else 1
-        if _is_cylinder(engine.chambers[1 - side]) and not _is_cylinder(engine.chambers[side]):
+        if _burns_fuel(engine.chambers[1 - side]) and not _burns_fuel(engine.chambers[side]):
             side = 1 - side
         charged = engine.chambers[side]
         length = charged.half_stroke
         depth = min(abs(self.position) * length, length - min(2.0 * charged.head_gap, 0.5 * length))
         x = depth if side == 1 else -depth
-        lit = bool(self.burning) and _is_cylinder(charged)
+        lit = bool(self.burning) and _burns_fuel(charged)
         held = (
             contents(engine.left, x, burning=lit and side == 0),
             contents(engine.right, -x, burning=lit and side == 1),
@@ -162,14 +162,15 @@ class AtRest(Start):
 def contents(chamber: Any, displacement: float, burning: bool = False) -> Contents:
     """What a chamber holds with its piston `displacement` [m] from the midpoint, outward."""
     height = chamber.half_stroke + displacement
-    if not _is_cylinder(chamber):
-        squeeze = chamber.half_stroke / height
-        pressure = chamber.pressure * squeeze ** chamber.gas_properties.gamma(chamber.temperature)
-        return Contents(False, False, False, pressure, _bounce_mass(chamber), 0.0, 0.0, 0.0)
+    full = chamber.filling
+    squeeze = full.clearance / height
+    if not _burns_fuel(chamber):
+        pressure = full.pressure * squeeze ** chamber.gas_properties.gamma(full.temperature)
+        return Contents(False, False, False, pressure, charge_mass(chamber), 0.0, 0.0, 0.0)
     mass, fuel, air, burnt = standard_charge(chamber)
-    is_open = height >= chamber.port_closing
-    squeeze = 1.0 if is_open else chamber.port_closing / height
-    pressure = chamber.intake.pressure * squeeze**COMPRESSION_EXPONENT
+    is_open = _has_ports(chamber) and squeeze <= 1.0
+    exponent = COMPRESSION_EXPONENT if _has_ports(chamber) else chamber.curve_exponent
+    pressure = full.pressure * (1.0 if is_open else squeeze**exponent)
     lit = burning and not is_open
     return Contents(is_open, lit, not is_open and not lit, pressure, mass, fuel, air, burnt)
 
@@ -187,27 +188,20 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
     return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
 
 
-def charge_mass(cylinder: Any) -> float:
-    """Mass of the charge at port closing [kg]: ``p_in A d_po / (R T_in)``."""
-    area = math.pi * cylinder.bore**2 / 4.0
-    density = cylinder.intake.pressure / (
-        cylinder.gas_properties.gas_constant * cylinder.intake.temperature
-    )
-    return float(density * area * cylinder.port_closing)
-
-
-def _bounce_mass(chamber: Any) -> float:
-    area = math.pi * chamber.bore**2 / 4.0
-    heat = chamber.gas_properties.gas_constant * chamber.temperature
-    return float(chamber.pressure * area * chamber.half_stroke / heat)
+def charge_mass(chamber: Any) -> float:
+    """Mass of the charge [kg]; of a ported cylinder ``p_in A d_po / (R T_in)``."""
+    full, area = chamber.filling, math.pi * chamber.bore**2 / 4.0
+    density = full.pressure / (chamber.gas_properties.gas_constant * full.temperature)
+    return float(density * area * full.clearance)
 
 
 def _resting(chamber: Any) -> Contents:
-    """A closed chamber at the intake's state, without fuel."""
-    if not _is_cylinder(chamber):
+    """A closed chamber, filled at the state its charge is known in, without fuel."""
+    if not _burns_fuel(chamber):
         return contents(chamber, 0.0)
-    mass = charge_mass(chamber) * chamber.half_stroke / chamber.port_closing
-    return Contents(False, False, False, chamber.intake.pressure, mass, 0.0, mass, 0.0)
+    full = chamber.filling
+    mass = charge_mass(chamber) * chamber.half_stroke / full.clearance
+    return Contents(False, False, False, full.pressure, mass, 0.0, mass, 0.0)
 
 
 def _stored_energy(engine: Engine, charged: Chamber, x: float, held: Contents, lit: bool) -> float:
@@ -216,12 +210,16 @@ def _stored_energy(engine: Engine, charged: Chamber, x: float, held: Contents, l
     springs -= engine.springs.energy(Motion(0.0, 0.0, 0.0, 0.0))
     height = charged.half_stroke - abs(x)
     volume = math.pi * charged.bore**2 / 4.0 * height
-    full = getattr(charged, "port_closing", charged.half_stroke)
+    full = charged.filling.clearance
     n = COMPRESSION_EXPONENT - 1.0
     gas = held.pressure * volume / n * max(1.0 - (height / full) ** n, 0.0)
     heat = held.fuel * charged.fuel.lower_heating_value if lit else 0.0  # type: ignore[attr-defined]
     return max(springs + gas + 0.4 * heat, 1e-12)
 
 
-def _is_cylinder(chamber: Any) -> bool:
+def _burns_fuel(chamber: Any) -> bool:
+    return hasattr(chamber, "ignition")
+
+
+def _has_ports(chamber: Any) -> bool:
     return hasattr(chamber, "port_closing")

@@ -262,6 +262,6 @@ def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: s
         residual=math.nan,
         method="simulation",
         strokes=run.strokes[:0] if strokes is None else strokes.copy(),
-        replay=run.replay if steady else None,
+        replay=run.replay if steady and isinstance(run.replay, Replay) else None,
         fallback=run,
     )

@@ -1,4 +1,4 @@
-"""Command line: ``saleg run``, ``saleg list``, ``saleg fundamental``, ``saleg sweep``."""
+"""Command line: ``saleg run``, ``steady``, ``list``, ``fundamental``, ``sweep``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 
-from saleg.cli import fundamental, listing, run, sweep
+from saleg.cli import fundamental, listing, run, steady, sweep
 from saleg.errors import SalegError
 from saleg.version import __version__
 
@@ -58,6 +58,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"saleg {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     run.add_to(commands)
+    steady.add_to(commands)
     listing.add_to(commands)
     fundamental.add_to(commands)
     sweep.add_to(commands)

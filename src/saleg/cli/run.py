@@ -26,14 +26,7 @@ def add_to(commands: Any) -> None:
     add = parser.add_argument
     add("machine", metavar="MACHINE|FILE.toml", help="a name 'saleg list' shows, or an engine file")
     add("--duration", type=float, default=2.5, metavar="T", help="time to simulate [s] (2.5)")
-    add(
-        "--set",
-        action="append",
-        default=[],
-        metavar="PATH=VALUE",
-        dest="changes",
-        help="change a value (SI) or, by name, a law, such as intake.pressure=1.2e5; repeatable",
-    )
+    add_changes(parser)
     add("--method", choices=("adaptive", "fixed"), help="integration (adaptive)")
     add("--order", type=int, metavar="N", help="order of the fixed-step method: 1-5 or 8 (4)")
     add("--step", type=float, metavar="S", help="fixed step [s] (5e-6)")
@@ -43,6 +36,18 @@ def add_to(commands: Any) -> None:
     add("--format", metavar="F,...", help=f"formats in DIR, of {', '.join(FORMATS)} (csv)")
     add("--force", action="store_true", help="replace DIR if it holds an earlier run")
     parser.set_defaults(command=run)
+
+
+def add_changes(parser: argparse.ArgumentParser) -> None:
+    """Add the option that changes an engine."""
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="PATH=VALUE",
+        dest="changes",
+        help="change a value (SI) or, by name, a law, such as intake.pressure=1.2e5; repeatable",
+    )
 
 
 def run(options: argparse.Namespace) -> bool:

@@ -18,7 +18,7 @@ from saleg.laws import BlairViscousFriction
 from saleg.machines import thesis_base
 from saleg.paths import exists, known_paths, with_value
 from saleg.paths import get as get_path
-from saleg.paths import unit as unit_of_path
+from saleg.paths import unit_of
 from saleg.quantities import Problem, is_number, problems
 
 MASSES = "masses"
@@ -116,7 +116,7 @@ class Design:
         """Unit of the number at a path, "-" if it has none."""
         node, chain = self._place(path)
         if chain is None:
-            return unit_of_path(self.laws, path)
+            return unit_of(self.laws, path)
         for name in chain[:-1]:
             node = getattr(node, name)
         item = next(item for item in fields(node) if item.name == chain[-1])

@@ -4,6 +4,8 @@ Everything is dimensionless (:class:`Scales` leads to SI and back): positions in
 midpoint at 0, heads at -1 and 1. A :class:`System` says what an engine is made of, ``stroke`` and
 :func:`march` follow it, :func:`equilibria` says where that ends. The printed equations are
 functions of their own: :func:`acceleration`, :func:`kinetic_energy`, :func:`equilibrium_force`.
+:func:`from_engine` leads here from the numeric engine, :func:`to_engine` back to it, and
+:func:`verify` runs it beside the closed form.
 
 :mod:`saleg.fundamental.plots` draws; :mod:`saleg.fundamental.figures` has the thesis' figures.
 
@@ -16,6 +18,7 @@ Examples
 equilibrium 2.26
 """
 
+from saleg.fundamental.assumptions import to_engine
 from saleg.fundamental.balance import at_equilibrium, indicated_work, multiplier
 from saleg.fundamental.band import ToleranceBand, equilibrium_branch, tolerance_band
 from saleg.fundamental.bridge import Groups, from_engine
@@ -35,6 +38,7 @@ from saleg.fundamental.otto import (
 from saleg.fundamental.scales import Scales
 from saleg.fundamental.stroke import Stroke
 from saleg.fundamental.system import System
+from saleg.fundamental.verification import Verification, verify
 
 __all__ = [
     "AtDeadCentre",
@@ -59,6 +63,7 @@ __all__ = [
     "Stroke",
     "System",
     "ToleranceBand",
+    "Verification",
     "acceleration",
     "at_equilibrium",
     "compression_ratio",
@@ -76,5 +81,7 @@ __all__ = [
     "otto_efficiency",
     "return_map",
     "stroke_balance",
+    "to_engine",
     "tolerance_band",
+    "verify",
 ]

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
-from saleg.engine import Chamber, Cylinder, Engine
+from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.errors import InvalidEngine, OutsideModel
 from saleg.fundamental.balance import at_equilibrium
 from saleg.fundamental.gas import Isentropic
@@ -101,9 +100,9 @@ def from_engine(
     Parameters
     ----------
     engine : Engine
-    chamber : Cylinder or BounceChamber, optional
-        The chamber taken for both sides, as Chapter 2 is symmetric; the engine's first cylinder
-        unless given.
+    chamber : Chamber, optional
+        The chamber taken for both sides, as Chapter 2 is symmetric; the engine's first one that
+        burns fuel unless given.
     gamma : float, optional
         Ratio of specific heats [-]; that of the chamber's gas as it enters (cold, as Eq. 31
         assumes) unless given.
@@ -128,14 +127,16 @@ def from_engine(
     """
     engine.validate()
     if chamber is None:
-        chamber = next((c for c in engine.chambers if isinstance(c, Cylinder)), engine.left)
+        chamber = next(
+            (c for c in engine.chambers if isinstance(c, CombustionChamber)), engine.left
+        )
     scales = Scales(
         half_stroke=chamber.half_stroke,
         bore=chamber.bore,
         stiffness=_stiffness(engine, chamber.half_stroke),
         mass=engine.translator.mass,
     )
-    pressure, temperature, closing = _filling(chamber)
+    pressure, temperature, closing = chamber.filling
     if gamma is None:
         gamma = float(chamber.gas_properties.gamma(temperature))  # type: ignore[attr-defined]
     elif not gamma > 1.0:
@@ -162,16 +163,9 @@ def _stiffness(engine: Engine, length: float) -> float:
     return float(stiffness)
 
 
-def _filling(chamber: Any) -> tuple[float, float, float]:
-    """Pressure [Pa], temperature [K] and clearance [m] of the closed charge."""
-    if isinstance(chamber, Cylinder):
-        return chamber.intake.pressure, chamber.intake.temperature, chamber.port_closing
-    return chamber.pressure, chamber.temperature, chamber.half_stroke
-
-
 def _heat(chamber: Chamber) -> float:
     """Heat released in a stroke of a cylinder that runs steadily [J]; none in a bounce chamber."""
-    if not isinstance(chamber, Cylinder):
+    if not isinstance(chamber, CombustionChamber):
         return 0.0
     _, fuel, air, _ = standard_charge(chamber)
     burning = min(fuel, air / chamber.fuel.air_fuel_ratio)

@@ -170,12 +170,13 @@ def _record_of_all(classes: tuple[Any, ...], lengths: tuple[Lengths, ...]) -> np
 
 @lru_cache(maxsize=256)
 def _names(law: Any) -> tuple[str, ...]:
-    return tuple(item.name for item in dataclasses.fields(law))  # type: ignore[arg-type]
+    return tuple(item.name for item in dataclasses.fields(law))
 
 
 def record_of(law: Law) -> np.dtype:
     """Record that holds the numbers of a law; a series of numbers is an array in it."""
-    return _record(type(law), _lengths(law))
+    kind: Any = type(law)
+    return _record(kind, _lengths(law))
 
 
 @lru_cache(maxsize=256)
@@ -190,12 +191,14 @@ def _record(law: Any, lengths: Lengths) -> np.dtype:
 
 def values_of(law: Law) -> tuple[Any, ...]:
     """Numbers of a law in the order of its record."""
-    return tuple(getattr(law, name) for name in _names(type(law))) or (0.0,)
+    kind: Any = type(law)
+    return tuple(getattr(law, name) for name in _names(kind)) or (0.0,)
 
 
 def _lengths(law: Law) -> Lengths:
     """How many numbers there are in each series of a law."""
-    items = ((name, getattr(law, name)) for name in _names(type(law)))
+    kind: Any = type(law)
+    items = ((name, getattr(law, name)) for name in _names(kind))
     return tuple((name, len(value)) for name, value in items if isinstance(value, (tuple, list)))
 
 

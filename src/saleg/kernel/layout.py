@@ -82,6 +82,7 @@ EVENT_IGNITION = 3
 EVENT_END_OF_COMBUSTION = 4
 EVENT_MISFIRE = 5
 EVENT_HEAD_CONTACT = 6
+EVENT_CHARGE_RENEWAL = 7
 EVENT_NAMES = (
     "dead centre",
     "port closing",
@@ -90,6 +91,7 @@ EVENT_NAMES = (
     "end of combustion",
     "misfire",
     "head contact",
+    "charge renewal",
 )
 
 #: State of the engine beside the state vector, with what it needs at every evaluation.
@@ -183,6 +185,9 @@ CHAMBER_RECORD = np.dtype(
             "ignition_third",
         )
     ]
+    # Exponent of the curve fresh charges lie on, 0 in a chamber that does not renew its charge at
+    # bottom dead centre; whether that is due.
+    + [(name, np.float64) for name in ("curve_exponent", "spent")]
 )
 
 #: One row per stroke, written at the dead centre that ends it. Values per side are left, right.

@@ -13,6 +13,7 @@ from saleg.kernel.layout import (
     BURNING,
     CURRENT,
     END_OF_TIME,
+    G0,
     IGNITION,
     MOTORED,
     N_VECTOR,
@@ -24,6 +25,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
+from saleg.kernel.rhs import height_of
 from saleg.kernel.switch import begin_stroke
 
 # What do_orbit is asked for.
@@ -113,6 +115,11 @@ def read_vector(E, C, y, z):
         y[THETA + side] = z[first + Z_LN_PRESSURE]
         y[IGNITION + side] = z[first + Z_INTEGRAL]
         y[MOTORED + side] = z[first + Z_LN_MOTORED]
+        if c.curve_exponent > 0.0 > c.sign * E.direction:  # its charge was renewed just here
+            height = height_of(C, side, y[X])
+            c.p_closing = exp(y[THETA + side] - G0 * log(height / c.half_stroke))
+            c.V_closing = c.area * height
+            c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
         if c.mode == BURNING:
             c.duration = exp(z[first + Z_LN_DURATION])
             phase = min(max(z[first + Z_BURN_PHASE], 0.0), 1.0)

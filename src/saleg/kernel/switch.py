@@ -14,6 +14,7 @@ from saleg.kernel.layout import (
     DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
+    EVENT_CHARGE_RENEWAL,
     EVENT_DEAD_CENTRE,
     EVENT_END_OF_COMBUSTION,
     EVENT_HEAD_CONTACT,
@@ -164,10 +165,32 @@ def close_ports(P, E, C, side, y):
     """Compose the fresh charge and begin to compress it."""
     before = internal_energy(P, C, side, y)
     c = C[side]
+    compose_charge(P, C, side, y, c.intake_pressure, c.intake_temperature)
+    c.exhaust_energy += before - internal_energy(P, C, side, y)
+
+
+@compiled
+def renew_charge(P, E, C, side, y):
+    """Reject heat at bottom dead centre, down to the curve through the midpoint state (2.3)."""
+    if C[side].mode == BURNING:
+        end_combustion(P, E, C, side)
+    before = internal_energy(P, C, side, y)
+    c = C[side]
+    squeeze = c.half_stroke / height_of(C, side, y[X])
+    p = c.intake_pressure * squeeze**c.curve_exponent
+    T = c.intake_temperature * squeeze ** (c.curve_exponent - 1.0)
+    compose_charge(P, C, side, y, p, T)
+    c.spent = 0.0
+    c.exhaust_energy += before - internal_energy(P, C, side, y)
+
+
+@compiled
+def compose_charge(P, C, side, y, p, T):
+    """Fill a chamber with a charge at a pressure and a temperature, from what stood in it."""
+    c = C[side]
     height = height_of(C, side, y[X])
     volume = c.area * height
-    T = c.intake_temperature
-    mass = c.intake_pressure * volume / (c.gas_constant * T)
+    mass = p * volume / (c.gas_constant * T)
     fuel, air, burnt, fresh = gas_exchange_charge(
         P, side, mass, c.fuel, c.air, c.burnt, c.equivalence_ratio_wanted, c.air_fuel_ratio
     )
@@ -175,16 +198,15 @@ def close_ports(P, E, C, side, y):
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
     c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
     c.equivalence_ratio = fuel * c.air_fuel_ratio / max(air, 1e-300)
-    c.p_closing, c.T_closing, c.V_closing = c.intake_pressure, T, volume
+    c.p_closing, c.T_closing, c.V_closing = p, T, volume
     c.mode = CLOSED
     c.charge_number += 1.0
     c.armed = ARMED if fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
     y[IGNITION + side] = 0.0
-    y[THETA + side] = log(c.intake_pressure) + G0 * log(height / c.half_stroke)
+    y[THETA + side] = log(p) + G0 * log(height / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
-    c.exhaust_energy += before - internal_energy(P, C, side, y)
 
 
 @compiled
@@ -292,6 +314,8 @@ def change_due(P, E, C, side, y):
     c = C[side]
     if c.mode == BURNING and E.t >= c.t_end:
         return EVENT_END_OF_COMBUSTION
+    if c.spent > 0.0:
+        return EVENT_CHARGE_RENEWAL
     if misfires(E, C, side):
         lit = c.armed == ARMED
         if lit and ignition_lights_at_dead_centre(P, side, charge_of(E, C, side)) > 0.0:
@@ -316,6 +340,8 @@ def change_mode(P, E, C, O, side, y, kind):
             y[IGNITION + side] = 0.0
     elif kind == EVENT_IGNITION:
         ignite(P, E, C, side, y, O.motored)
+    elif kind == EVENT_CHARGE_RENEWAL:
+        renew_charge(P, E, C, side, y)
     elif kind == EVENT_PORT_CLOSING:
         close_ports(P, E, C, side, y)
     else:
@@ -336,6 +362,9 @@ def turn(P, E, C, y, peaks, strokes, filled):
         E.stroke = 0.0  # two dead centres at one instant: the motion has died away
     E.direction = -E.direction
     begin_stroke(E, C, y, peaks)
+    for side in range(2):
+        c = C[side]
+        c.spent = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
 
 
 @compiled

@@ -2,6 +2,8 @@
 
 from saleg.laws.alternator import (
     CircuitAlternator,
+    ConstantForce,
+    CosineForce,
     FluxProfile,
     ForceMap,
     LinearLoad,
@@ -32,7 +34,14 @@ from saleg.laws.friction import (
 from saleg.laws.gas_exchange import InstantExchange
 from saleg.laws.gas_properties import ChangGas, ConstantGamma
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
-from saleg.laws.heat_transfer import Annand, Chang, Hohenberg, NoHeatTransfer, Woschni
+from saleg.laws.heat_transfer import (
+    Annand,
+    Chang,
+    Hohenberg,
+    NoHeatTransfer,
+    PolytropicLoss,
+    Woschni,
+)
 from saleg.laws.ignition import (
     CFRIgnition,
     IgnitionAtDeadCentre,
@@ -56,8 +65,10 @@ __all__ = [
     "ChangGas",
     "Charge",
     "CircuitAlternator",
+    "ConstantForce",
     "ConstantFriction",
     "ConstantGamma",
+    "CosineForce",
     "CoulombViscousFriction",
     "DoubleWiebe",
     "EndStops",
@@ -84,6 +95,7 @@ __all__ = [
     "NoFriction",
     "NoHeatTransfer",
     "NoMisfires",
+    "PolytropicLoss",
     "PreloadedSprings",
     "ProgressiveSprings",
     "RCMIgnition",

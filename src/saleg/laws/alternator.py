@@ -68,6 +68,68 @@ class LinearLoad(RegulatedAlternator):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ConstantForce(RegulatedAlternator):
+    """A force of constant magnitude against the motion: the work force of Chapter 2 (2.3).
+
+    ``F = W A``; it turns with the translator, at the dead centres and nowhere else.
+
+    Parameters
+    ----------
+    amplitude : float
+        Force A at a load weight of one [N].
+    efficiency : float
+        Electrical over mechanical power [-].
+    regulator_gain, target_stroke, maximum_weight : float
+        See :class:`RegulatedAlternator`.
+    """
+
+    amplitude: float = quantity("N", default=1000.0, low=0)
+    efficiency: float = quantity("-", default=0.95, low=0, high=1)
+
+    def force(self, held: float, motion: Motion) -> float:
+        """Force against positive velocity [N]."""
+        return held * self.amplitude * motion.direction
+
+    def electrical_power(self, held: float, motion: Motion) -> float:
+        """Electrical power [W]."""
+        return self.efficiency * held * self.amplitude * motion.direction * motion.v
+
+
+@dataclass(frozen=True, kw_only=True)
+class CosineForce(RegulatedAlternator):
+    """A force against the motion that is greatest at the midpoint (Eq. 33).
+
+    ``F = W A cos(pi x / 2 L)``: none at the heads.
+
+    Parameters
+    ----------
+    amplitude : float
+        Amplitude A at a load weight of one [N]. By Eq. 34 the work over the whole stroke 2 L is
+        that of a constant force of 2 A / pi.
+    half_stroke : float
+        Half of the maximum stroke L [m].
+    efficiency : float
+        Electrical over mechanical power [-].
+    regulator_gain, target_stroke, maximum_weight : float
+        See :class:`RegulatedAlternator`.
+    """
+
+    amplitude: float = quantity("N", default=1500.0, low=0)
+    half_stroke: float = quantity("m", default=0.1, low=0, open_low=True)
+    efficiency: float = quantity("-", default=0.95, low=0, high=1)
+
+    def force(self, held: float, motion: Motion) -> float:
+        """Force against positive velocity [N], Eq. 33."""
+        shape = math.cos(0.5 * math.pi * motion.x / self.half_stroke)
+        return held * self.amplitude * shape * motion.direction
+
+    def electrical_power(self, held: float, motion: Motion) -> float:
+        """Electrical power [W]."""
+        shape = math.cos(0.5 * math.pi * motion.x / self.half_stroke)
+        return self.efficiency * held * self.amplitude * shape * motion.direction * motion.v
+
+
+@dataclass(frozen=True, kw_only=True)
 class CircuitAlternator(RegulatedAlternator):
     """Equivalent circuit with inductance and coil resistance (Eq. 43-46); the current is a state.
 

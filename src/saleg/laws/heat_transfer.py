@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from saleg.laws.arguments import Charge, Gas
@@ -163,3 +164,33 @@ class NoHeatTransfer(HeatTransfer):
     def coefficient(self, gas: Gas, charge: Charge) -> float:
         """Heat-transfer coefficient [W/m^2/K]: zero."""
         return 0.0
+
+
+@dataclass(frozen=True)
+class PolytropicLoss(HeatTransfer):
+    """Heat transfer that makes ``p V^n`` constant, n another one in expansion (2.6).
+
+    Eq. 48 with ``dp/dt = -n p/V dV/dt`` gives the heat flow ``(n - g)/(g - 1) p dV/dt``: heat is
+    lost on both ways where ``compression < gamma < expansion``, and gained otherwise, whatever the
+    wall's temperature. The coefficient is that flow over area and temperature difference; let
+    the gas not pass through the temperature of the wall.
+
+    Parameters
+    ----------
+    gamma : float
+        Ratio of specific heats [-]; that of the gas, which has to be constant.
+    compression, expansion : float
+        Polytropic exponents [-].
+    """
+
+    gamma: float = quantity("-", default=1.4, low=1, open_low=True)
+    compression: float = quantity("-", default=1.35, low=1, open_low=True)
+    expansion: float = quantity("-", default=1.45, low=1, open_low=True)
+
+    def coefficient(self, gas: Gas, charge: Charge) -> float:
+        """Heat flow over area and temperature difference [W/m^2/K]; negative if against it."""
+        exponent = self.compression if gas.height_rate < 0.0 else self.expansion
+        work = gas.p * gas.V / gas.height * gas.height_rate
+        area = 2.0 * gas.V / gas.height + math.pi * gas.bore * gas.height
+        flow = (exponent - self.gamma) / (self.gamma - 1.0) * work
+        return flow / (area * (gas.T - gas.wall_temperature))

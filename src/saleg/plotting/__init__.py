@@ -3,7 +3,8 @@
 Every figure is a function of a run and, if wanted, of the axes to draw on; it returns the axes.
 Axes of one's own may belong to pyplot; those made here do not, so no display is needed and nothing
 has to be closed. ``run.plot`` offers the same functions: ``run.plot.forces()``. Figures of the
-numerical studies are in ``saleg.plotting.studies``.
+numerical studies are in ``saleg.plotting.studies``, those of sensitivity studies in
+``saleg.plotting.sensitivity``.
 
 matplotlib is imported only when something is drawn.
 
@@ -17,7 +18,7 @@ Examples
 'pressure [bar]'
 """
 
-from saleg.plotting import studies
+from saleg.plotting import sensitivity, studies
 from saleg.plotting.cycle import NoCycle
 from saleg.plotting.energy import energy_pie
 from saleg.plotting.gas import (
@@ -66,6 +67,7 @@ __all__ = [
     "pressure_position",
     "pressure_time",
     "pressure_volume",
+    "sensitivity",
     "studies",
     "velocity_position",
 ]

@@ -140,7 +140,8 @@ def _run_on(
             running.turn()
             running.change_chambers()
             shortest = stall_stroke * running.engine.maximum_stroke
-            if running.strokes and running.machine.stroke < shortest:
+            held = running.machine.stroke == 0.0
+            if held or (running.strokes and running.machine.stroke < shortest):
                 return layout.STALLED
     return layout.END_OF_TIME
 

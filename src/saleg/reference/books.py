@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import Chamber, Cylinder, Engine
+from saleg.engine import Chamber, CombustionChamber, Cylinder, Engine, SealedCylinder
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import (
     INTEGRAL,
@@ -144,6 +144,8 @@ class RunningEngine:
         The last dead centre [m, s]; NaN before the first.
     earlier_fuel, earlier_speed_squared : float
         Of the stroke before the present one [J, m^2/s].
+    spent : set of int
+        Sides whose charge is to be renewed, having come to its bottom dead centre.
     peaks : ndarray
         Greatest values of the stroke, in the order of the layout.
     strokes, events : list of tuple
@@ -160,6 +162,7 @@ class RunningEngine:
     t_dead_centre: float = 0.0
     earlier_fuel: float = 0.0
     earlier_speed_squared: float = 0.0
+    spent: set[int] = field(default_factory=set)
     peaks: np.ndarray = field(default_factory=lambda: np.zeros(layout.N_PEAKS))
     strokes: list[np.ndarray] = field(default_factory=list)
     events: list[tuple[Any, ...]] = field(default_factory=list)
@@ -174,7 +177,7 @@ class RunningEngine:
         y[PRESSURE : PRESSURE + 2] = [held.pressure for held in contents]
         y[MOTORED_PRESSURE : MOTORED_PRESSURE + 2] = y[PRESSURE : PRESSURE + 2]
         chambers = [
-            _chamber_state(chamber, held, sign)
+            _chamber_state(chamber, held, sign, start.x)
             for chamber, held, sign in zip(engine.chambers, contents, (1.0, -1.0), strict=True)
         ]
         mass = float(engine.translator.mass)
@@ -235,7 +238,7 @@ class RunningEngine:
         c, chamber = self.chambers[side], self.engine.chambers[side]
         if c.mode != layout.BURNING:
             return 0.0
-        assert isinstance(chamber, Cylinder)
+        assert isinstance(chamber, CombustionChamber)
         u = min((self.t - c.t_ignition) / c.duration, 1.0) if c.duration > 0.0 else 1.0
         share = chamber.heat_release.burnt_fraction(u)
         return share * c.heat / chamber.fuel.lower_heating_value
@@ -257,6 +260,7 @@ class RunningEngine:
         """Carry out one change that is due; whether there was one."""
         due = {
             layout.EVENT_END_OF_COMBUSTION: (self._has_burnt, self.end_combustion),
+            layout.EVENT_CHARGE_RENEWAL: (self.spent.__contains__, self.renew_charge),
             layout.EVENT_IGNITION: (self._is_lit, self.ignite),
             layout.EVENT_MISFIRE: (self._has_misfired, self.misfire),
             layout.EVENT_PORT_CLOSING: (self._is_closing, self.close_ports),
@@ -284,7 +288,7 @@ class RunningEngine:
     def _is_lit(self, side: int) -> bool:
         armed, chamber = self.chambers[side].armed, self.engine.chambers[side]
         if armed == layout.ARMED and self.is_expanding(side):  # a dead centre has been passed
-            assert isinstance(chamber, Cylinder)
+            assert isinstance(chamber, CombustionChamber)
             charge = charge_in(self.machine, self.chambers, side)
             return chamber.ignition.lights_at_dead_centre(charge) > 0.0
         return armed > layout.DISARMED and bool(self.y[INTEGRAL + side] >= 1.0)
@@ -301,7 +305,7 @@ class RunningEngine:
     def misfire(self, side: int) -> None:
         """The piston has turned before the charge lit: it no longer may, or only late."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
-        assert isinstance(chamber, Cylinder)
+        assert isinstance(chamber, CombustionChamber)
         if c.armed == layout.ARMED and chamber.late_ignition > 0.0:
             c.armed = layout.LATE
         else:
@@ -311,7 +315,7 @@ class RunningEngine:
     def ignite(self, side: int) -> None:
         """Begin to release the heat of what fuel and air can burn."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
-        assert isinstance(chamber, Cylinder)
+        assert isinstance(chamber, CombustionChamber)
         c.duration = chamber.heat_release.duration(
             self.gas(side), charge_in(self.machine, self.chambers, side)
         )
@@ -330,7 +334,7 @@ class RunningEngine:
         from scipy.optimize import brentq
 
         c, chamber = self.chambers[side], self.engine.chambers[side]
-        assert isinstance(chamber, Cylinder)
+        assert isinstance(chamber, CombustionChamber)
         heat = c.heat * chamber.heat_release.burnt_fraction(1.0)
         energy, T = chamber.gas_properties.internal_energy, self.gas(side).T
         wanted = energy(T) + heat / c.mass
@@ -341,7 +345,7 @@ class RunningEngine:
     def end_combustion(self, side: int) -> None:
         """Turn fuel and stoichiometric air into burnt gas, as far as they have burnt."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
-        assert isinstance(chamber, Cylinder)
+        assert isinstance(chamber, CombustionChamber)
         fuel = self.burnt_so_far(side)
         air = chamber.fuel.air_fuel_ratio * fuel
         c.fuel, c.air, c.burnt = c.fuel - fuel, c.air - air, c.burnt + fuel + air
@@ -360,19 +364,37 @@ class RunningEngine:
         self.books[side].exhaust_energy += before - self.internal_energy(side)
 
     def close_ports(self, side: int) -> None:
-        """Compose the fresh charge from what was retained and what is metered now."""
-        c, chamber, books = self.chambers[side], self.engine.chambers[side], self.books[side]
+        """Compose the fresh charge at the state of the intake."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, Cylinder)
-        before, fuel_before = self.internal_energy(side), c.fuel
         p, T = chamber.intake.pressure, chamber.intake.temperature
-        volume = c.area * self.height(side)
-        ratio = chamber.fuel.air_fuel_ratio
-        c.mass = p * volume / (c.gas_constant * T)
+        before = self.internal_energy(side)
+        c.mass = p * c.area * self.height(side) / (c.gas_constant * T)
+        self._compose(side, p, T)
+        self.books[side].exhaust_energy += before - self.internal_energy(side)
+
+    def renew_charge(self, side: int) -> None:
+        """Put a fresh charge of the same mass on the curve through the midpoint state."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, SealedCylinder)
+        if c.mode == layout.BURNING:
+            self.end_combustion(side)
+        self.spent.discard(side)
+        before = self.internal_energy(side)
+        p = chamber.pressure * (self.height(side) / c.half_stroke) ** -chamber.curve_exponent
+        self._compose(side, p, p * c.area * self.height(side) / (c.mass * c.gas_constant))
+        self.books[side].exhaust_energy += before - self.internal_energy(side)
+
+    def _compose(self, side: int, p: float, T: float) -> None:
+        """Make the charge of what was retained and what is metered now."""
+        c, chamber, books = self.chambers[side], self.engine.chambers[side], self.books[side]
+        assert isinstance(chamber, CombustionChamber)
+        fuel_before, ratio = c.fuel, chamber.fuel.air_fuel_ratio
         c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
             c.mass, c.fuel, c.air, c.burnt, chamber.equivalence_ratio, ratio
         )
         c.equivalence_ratio = ratio * c.fuel / c.air if c.fuel > 0.0 else 0.0
-        c.p_closing, c.T_closing, c.V_closing = p, T, volume
+        c.p_closing, c.T_closing, c.V_closing = p, T, c.area * self.height(side)
         c.number += 1.0
         c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:
@@ -382,7 +404,6 @@ class RunningEngine:
         exhausted = fuel_before + fresh - c.fuel
         books.fresh_fuel_energy += fresh * chamber.fuel.lower_heating_value
         books.exhaust_fuel_energy += exhausted * chamber.fuel.lower_heating_value
-        books.exhaust_energy += before - self.internal_energy(side)
 
     # Dead centres.
 
@@ -391,7 +412,14 @@ class RunningEngine:
         if math.isfinite(self.x_dead_centre) and self.t > self.t_dead_centre:
             self.strokes.append(self._stroke_row())
             self._regulate()
+        elif math.isfinite(self.x_dead_centre):  # two at one instant: the translator is held
+            self.machine.stroke = 0.0
         self.machine.direction = -self.machine.direction
+        self.spent = {
+            side
+            for side, chamber in enumerate(self.engine.chambers)
+            if isinstance(chamber, SealedCylinder) and not self.is_expanding(side)
+        }
         self.y[QUADRATURES:] = 0.0
         self.peaks[:] = 0.0
         self.books = [StrokeBooks(), StrokeBooks()]
@@ -452,7 +480,7 @@ class RunningEngine:
     def _fuel_energy(self, side: int) -> float:
         """Lower heating value of the unburnt fuel in a chamber [J]."""
         chamber = self.engine.chambers[side]
-        if not isinstance(chamber, Cylinder):
+        if not isinstance(chamber, CombustionChamber):
             return 0.0
         left = self.chambers[side].fuel - self.burnt_so_far(side)
         return left * chamber.fuel.lower_heating_value
@@ -469,15 +497,16 @@ _TOTALS = (
 _TOTALS_PER_SIDE = ("heat_released", "heat_lost", "gas_work", "port_work")
 
 
-def _chamber_state(chamber: Chamber, held: Contents, sign: float) -> ChamberState:
+def _chamber_state(chamber: Chamber, held: Contents, sign: float, x: float) -> ChamberState:
     """Chamber with the contents its start law gave it."""
     area = math.pi * chamber.bore**2 / 4.0
-    if isinstance(chamber, Cylinder):
-        p, T, full = chamber.intake.pressure, chamber.intake.temperature, chamber.port_closing
-        ratio = chamber.fuel.air_fuel_ratio * held.fuel / held.air if held.fuel > 0.0 else 0.0
-    else:
-        p, T, full = chamber.pressure, chamber.temperature, chamber.half_stroke  # type: ignore[attr-defined]
-        ratio = 0.0
+    p, T, full = chamber.filling
+    if isinstance(chamber, SealedCylinder):  # its charge is closed where it stands
+        p, full = held.pressure, chamber.half_stroke + sign * x
+        T = p * area * full / (held.mass * chamber.gas_properties.gas_constant)
+    ratio = 0.0
+    if isinstance(chamber, CombustionChamber) and held.fuel > 0.0:
+        ratio = chamber.fuel.air_fuel_ratio * held.fuel / held.air
     return ChamberState(
         sign=sign,
         bore=chamber.bore,

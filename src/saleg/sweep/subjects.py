@@ -12,7 +12,7 @@ from saleg.design.designs import Design
 from saleg.design.many import UNITS as DESIGN_UNITS
 from saleg.design.many import Follower
 from saleg.engine import Engine
-from saleg.paths import unit
+from saleg.paths import unit_of
 from saleg.steady import steady_state
 
 Values = Mapping[str, float]
@@ -80,7 +80,7 @@ class EngineSubject:
 
     def unit(self, name: str) -> str:
         """Unit of an input."""
-        return unit(self.engine, name)
+        return unit_of(self.engine, name)
 
     def describe(self) -> dict[str, Any]:
         """The engine."""

@@ -1,0 +1,120 @@
+"""Steady states: solved against waited for, one thread against two, and memory.
+
+    python benchmarks/steady.py [--designs 1000] [--repeats 5] [--memory 100000]
+
+Random designs vary the base case by a fifth. Waiting is 2.5 s of simulation with the same
+integrator at the same tolerance, as the thesis does it; both are timed in turns in one run.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+import saleg
+
+BASE = saleg.machines.thesis_base()
+PATHS = (
+    "bore",
+    "half_stroke",
+    "moving_mass",
+    "spring.stiffness",
+    "intake.pressure",
+    "equivalence_ratio",
+    "egr",
+    "alternator.load_constant",
+    "friction.coefficient",
+)
+RTOL = 1e-6
+
+
+def designs(count, seed=0, spread=0.2):
+    """Random engines around the base case, one after the other."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        changes = {path: BASE.get(path) * rng.uniform(1 - spread, 1 + spread) for path in PATHS}
+        changes["port_closing"] = changes["half_stroke"] * 1.33 * rng.uniform(0.9, 1.1)
+        changes["intake.temperature"] = 325.0 * rng.uniform(0.9, 1.1)
+        changes["alternator.regulator_gain"] = rng.uniform(3.0, 7.5)
+        yield BASE.replace(**changes)
+
+
+def seconds(function):
+    """How long a call takes [s], and what it returns."""
+    start = time.perf_counter()
+    result = function()
+    return time.perf_counter() - start, result
+
+
+def compare(engines):
+    """Solving against waiting, a few designs of each in turns."""
+    solved, waited, found = 0.0, 0.0, []
+    for first in range(0, len(engines), 20):
+        part = engines[first : first + 20]
+        spent, states = seconds(lambda part=part: [saleg.steady_state(e, rtol=RTOL) for e in part])
+        solved += spent
+        found += states
+        waited += seconds(lambda part=part: [saleg.simulate(e, 2.5, rtol=RTOL) for e in part])[0]
+    count = len(engines)
+    halves = [state.half_cycles for state in found]
+    methods = {method: sum(s.method == method for s in found) for method in ("fixed point",)}
+    print(f"solving {1e3 * solved / count:.2f} ms, waiting {1e3 * waited / count:.2f} ms a design")
+    print(
+        f"ratio {waited / solved:.1f}; half cycles: mean {np.mean(halves):.1f}, most {max(halves)}"
+    )
+    print(f"found as a fixed point: {methods['fixed point']} of {count}\n")
+
+
+def threads(engines, repeats):
+    """Best of some repeats with one thread and with two, in turns."""
+    best = {1: np.inf, 2: np.inf}
+    for _ in range(repeats):
+        for workers in best:
+            spent = seconds(lambda w=workers: saleg.steady_states(engines, workers=w))[0]
+            best[workers] = min(best[workers], spent)
+    print(f"two threads: {best[1] / best[2]:.2f} times as fast as one\n")
+
+
+def memory(count):
+    """Growth of memory [MB] of a process over a table of many designs."""
+    code = f"""
+import sys; sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+import steady
+def peak():
+    lines = open("/proc/self/status").read().splitlines()
+    return next(float(line.split()[1]) / 1024 for line in lines if line.startswith("VmHWM"))
+steady.saleg.steady_states(steady.designs(100)); before = peak()
+table = steady.saleg.steady_states(steady.designs({count}))
+print(len(table), before, peak())
+"""
+    out = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    rows, before, after = (float(number) for number in out.stdout.split())
+    print(f"{rows:.0f} designs in one call: {before:.0f} MB before, {after:.0f} MB at most")
+
+
+def main():
+    """Run everything and print it."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--designs", type=int, default=1000)
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--memory", type=int, default=100_000, help="designs of the memory test")
+    options = parser.parse_args()
+    machine = f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
+    print(f"{machine}; Python {platform.python_version()}; saleg {saleg.__version__}\n")
+    engines = list(designs(options.designs))
+    saleg.steady_state(BASE)
+    saleg.simulate(BASE, 0.1)
+    compare(engines)
+    threads(engines[: options.designs // 2], options.repeats)
+    if options.memory:
+        memory(options.memory)
+
+
+if __name__ == "__main__":
+    main()

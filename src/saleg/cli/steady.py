@@ -1,0 +1,29 @@
+"""``saleg steady``: the steady state of a machine or an engine file, solved for."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from saleg.cli.run import add_changes, changed, load
+from saleg.stability import describe
+from saleg.steady import DEFAULT_TOLERANCE, steady_state
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser's sub-commands."""
+    parser = commands.add_parser("steady", help="solve for the steady state, with its stability")
+    add = parser.add_argument
+    add("machine", metavar="MACHINE|FILE.toml", help="a name 'saleg list' shows, or an engine file")
+    add_changes(parser)
+    add("--rtol", type=float, default=DEFAULT_TOLERANCE, metavar="R", help="tolerance (1e-6)")
+    parser.set_defaults(command=solve)
+
+
+def solve(options: argparse.Namespace) -> bool:
+    """Solve and report; returns whether there is a steady state."""
+    found = steady_state(changed(load(options.machine), options.changes), rtol=options.rtol)
+    print(found)
+    if found.found:
+        print(describe(found.stability))
+    return found.found
