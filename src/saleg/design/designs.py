@@ -16,9 +16,8 @@ from saleg.engine import Engine
 from saleg.errors import UnknownPath, WrongFields
 from saleg.laws import BlairViscousFriction
 from saleg.machines import thesis_base
-from saleg.paths import exists, known_paths, with_value
+from saleg.paths import exists, known_paths, unit_of, with_value
 from saleg.paths import get as get_path
-from saleg.paths import unit_of
 from saleg.quantities import Problem, is_number, problems
 
 MASSES = "masses"

@@ -52,7 +52,7 @@ class Geometry:
         length = parameters.half_stroke
         outer = mover.outer_diameter(operation)
         bearing = formulas.bearing_position(operation.stroke, length)
-        crown = formulas.crown_position(bearing)
+        crown = formulas.crown_position(bearing, length)
         return cls(
             mover_outer_diameter=outer,
             mover_inner_diameter=mover.inner_ratio * outer,

@@ -57,7 +57,7 @@ class Score:
     def __call__(self, row: Mapping[str, Any]) -> Any:
         """Score [-] of a row, or of a whole frame, with these figures; 0 where one is missing."""
         met = {
-            "efficiency": _reached(row["efficiency"] / self.target_efficiency),
+            "efficiency": _reached(row["efficiency"] / self.target_efficiency, 2.0),
             "stability": _near(row["stability"] / self.tolerated_change),
             "compression_ratio": _within(
                 row["compression_ratio"],
@@ -66,7 +66,8 @@ class Score:
             ),
             "peak_pressure": _reached(
                 (self.greatest_pressure + self.pressure_tolerance - row["peak_pressure"])
-                / self.pressure_tolerance
+                / self.pressure_tolerance,
+                1.0,
             ),
         }
         weights = {name: getattr(self, name) for name in met}
@@ -74,9 +75,9 @@ class Score:
         return np.nan_to_num(total, nan=0.0)
 
 
-def _reached(share: Any) -> Any:
-    """0 at zero, nearly 1 where the target is reached."""
-    return 1.0 - np.exp(-2.0 * np.maximum(share, 0.0) ** 6)
+def _reached(share: Any, rate: float) -> Any:
+    """0 at zero, most of 1 where the target is reached."""
+    return 1.0 - np.exp(-rate * np.maximum(share, 0.0) ** 6)
 
 
 def _near(share: Any) -> Any:

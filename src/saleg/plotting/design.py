@@ -1,0 +1,259 @@
+"""Figures of the component design: 62, 63, 65 and 66."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.design import formulas
+from saleg.design.geometry import Geometry
+from saleg.plotting.style import (
+    ALTERNATOR_COLOUR,
+    LEFT_COLOUR,
+    RIGHT_COLOUR,
+    SPRING_COLOUR,
+    TRANSLATOR_COLOUR,
+    axes_or_new,
+    finish,
+    from_zero,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Thickness of walls in the drawing [mm], turns of a spring, and depth of a bearing [mm].
+WALL, TURNS, BEARING = 4.0, 9, 6.0
+HOUSING = "0.55"
+
+
+def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
+    """Draw the engine to scale with the translator at its midpoint (Figure 62) [mm].
+
+    Springs and walls are schematic; all that Table 7 names is to scale and dimensioned.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
+    mm = {name: 1e3 * value for name, value in geometry.to_dict().items()}
+    depth = 0.5 * max(mm["mover_outer_diameter"], mm["bore"]) + 3.0 * WALL
+    step = 0.035 * mm["head"] + 6.0
+    bottom, top, end = -depth - 6.0 * step, depth + 2.0 * WALL, mm["head"] + 8.0 * WALL
+    ax = axes_or_new(ax, width=11.0, height=0.9 + 10.6 * (top - bottom) / (2.0 * end))
+    for side in (-1.0, 1.0):
+        _housing(ax, mm, side)
+        _springs(ax, mm, side)
+        _translator(ax, mm, side)
+    _mover(ax, mm)
+    _lengths(ax, mm, depth, step)
+    _diameters(ax, mm, bottom)
+    ax.axhline(0.0, color="0.6", linewidth=0.6, linestyle=(0, (12, 3, 2, 3)), zorder=5)
+    ax.set_aspect("equal")
+    ax.set_xlim(-end, end)
+    ax.set_ylim(bottom, top)
+    ax.set_xlabel("distance from the midpoint [mm]")
+    ax.set_yticks([])
+    finish(ax, f"Engine to scale: {2.0 * mm['head']:.0f} mm from head to head", None)
+    ax.grid(visible=False)
+    ax.spines["left"].set_visible(False)
+    return ax
+
+
+def _box(ax: Axes, x: float, y: float, width: float, height: float, **look: Any) -> None:
+    from matplotlib.patches import Rectangle
+
+    ax.add_patch(Rectangle((x, y), width, height, **look))
+
+
+def _housing(ax: Axes, mm: dict[str, float], side: float) -> None:
+    """Head, liner with its ports, and bearing of one side."""
+    radius, look = 0.5 * mm["bore"], {"color": HOUSING, "linewidth": 0.0}
+    _box(ax, side * mm["head"], -radius - WALL, side * WALL, 2 * (radius + WALL), **look)
+    inner = mm["bearing"]
+    for y in (radius, -radius - WALL):
+        _box(ax, side * inner, y, side * (mm["port"] - inner), WALL, **look)
+        _box(ax, side * mm["port"], y, side * (mm["head"] - mm["port"]), WALL, **look)
+        port = min(0.12 * (mm["head"] - inner), 3 * WALL)
+        _box(ax, side * (mm["port"] - port), y, side * port, WALL, color="white", zorder=3)
+        _box(ax, side * (mm["port"] - port), y, side * port, WALL, ec=HOUSING, fc="none", zorder=4)
+    rod = 0.5 * mm["rod_diameter"]
+    for y in (rod, -radius - WALL):
+        _box(ax, side * inner, y, side * BEARING, radius + WALL - rod, **look)
+
+
+def _springs(ax: Axes, mm: dict[str, float], side: float) -> None:
+    """A spring between the mover and the bearing, above and below the rod."""
+    x = side * np.linspace(mm["mover_end"], mm["bearing"], 2 * TURNS + 1)
+    rod = 0.5 * mm["rod_diameter"]
+    outer = max(0.8 * 0.5 * mm["bore"], rod + 3.0)
+    for sign in (-1.0, 1.0):
+        y = np.where(np.arange(len(x)) % 2, outer, rod + 1.5)
+        ax.plot(x, sign * y, color=SPRING_COLOUR, linewidth=1.2, zorder=1)
+
+
+def _translator(ax: Axes, mm: dict[str, float], side: float) -> None:
+    """Rod and piston of one side."""
+    rod, radius = 0.5 * mm["rod_diameter"], 0.5 * mm["bore"]
+    skirt = 1e3 * formulas.SKIRT_LENGTH
+    look: dict[str, Any] = {"fc": LEFT_COLOUR, "ec": TRANSLATOR_COLOUR, "linewidth": 0.6}
+    _box(ax, 0.0, -rod, side * (mm["crown"] - skirt), 2 * rod, zorder=2, **look)
+    _box(ax, side * (mm["crown"] - skirt), -radius, side * skirt, 2 * radius, zorder=2, **look)
+
+
+def _mover(ax: Axes, mm: dict[str, float]) -> None:
+    """Hollow mover of the alternator, cut open, with the web that carries it."""
+    outer, inner = 0.5 * mm["mover_outer_diameter"], 0.5 * mm["mover_inner_diameter"]
+    length = 2.0 * mm["mover_end"]
+    look: dict[str, Any] = {"fc": ALTERNATOR_COLOUR, "ec": TRANSLATOR_COLOUR, "linewidth": 0.6}
+    for y in (inner, -outer):
+        _box(ax, -mm["mover_end"], y, length, outer - inner, zorder=2, **look)
+    web = 0.5 * WALL
+    _box(ax, -web, -inner, 2 * web, 2 * inner, zorder=1, **look)
+
+
+def _lengths(ax: Axes, mm: dict[str, float], depth: float, step: float) -> None:
+    """Dimension lines from the midpoint, below the right half; the longest lowest."""
+    names = {
+        "L_A": "mover_end",
+        "L_{po}": "port",
+        "L_B": "bearing",
+        "L_P": "crown",
+        "L_C": "head",
+    }
+    for row, (label, name) in enumerate(sorted(names.items(), key=lambda item: mm[item[1]])):
+        y, x = -depth - step * (row + 1), mm[name]
+        ax.plot([x, x], [-0.5 * mm["rod_diameter"], y], color="0.75", linewidth=0.5, zorder=0)
+        arrow = {"arrowstyle": "<->", "linewidth": 0.7, "shrinkA": 0.0, "shrinkB": 0.0}
+        ax.annotate("", (0.0, y), (x, y), arrowprops=arrow)
+        _label(ax, 0.5 * mm["mover_end"], y, f"${label}$ = {x:.1f} mm")
+    ax.plot([0.0, 0.0], [-depth, -depth - 5.5 * step], color="0.75", linewidth=0.5, zorder=0)
+
+
+def _diameters(ax: Axes, mm: dict[str, float], bottom: float) -> None:
+    """Diameters, below the left half."""
+    texts = {
+        "D_o": mm["mover_outer_diameter"],
+        "D_i": mm["mover_inner_diameter"],
+        "D_R": mm["rod_diameter"],
+        "b": mm["bore"],
+    }
+    lines = [f"${name}$ = {value:.1f} mm" for name, value in texts.items()]
+    ax.text(-mm["head"], 0.95 * bottom, "\n".join(lines), va="bottom", fontsize="small")
+
+
+def _label(ax: Axes, x: float, y: float, text: str) -> None:
+    look = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
+    ax.text(x, y, text, ha="center", va="center", fontsize="x-small", bbox=look)
+
+
+def alternator_map(
+    powers: Sequence[float] = (1e3, 10e3, 100e3), ax: Axes | None = None
+) -> np.ndarray:
+    """Draw the alternator diameter [m] over stroke [mm] and frequency [Hz] (Figure 63, Eq. 60).
+
+    Two poles, pole pitch equal to the stroke; one panel per power.
+
+    Parameters
+    ----------
+    powers : sequence of float
+        Electrical powers [W].
+    ax : array of matplotlib.axes.Axes, optional
+        One per power; new ones unless given.
+
+    Returns
+    -------
+    array of matplotlib.axes.Axes
+    """
+    from matplotlib.colors import LogNorm
+
+    from saleg.plotting.style import new_figure
+
+    if ax is None:
+        figure = new_figure(4.0 * len(powers) + 0.6, 3.9)
+        ax = figure.subplots(1, len(powers), sharey=True, squeeze=False)[0]
+    panels = np.atleast_1d(ax)  # type: ignore[arg-type]
+    stroke, frequency = np.meshgrid(np.geomspace(0.02, 0.3, 80), np.linspace(10.0, 100.0, 80))
+    norm, levels = LogNorm(1e-3, 20.0), np.geomspace(1e-3, 20.0, 44)
+    for panel, power in zip(panels, powers, strict=True):
+        speed = formulas.mean_speed(stroke, frequency)  # type: ignore[arg-type]
+        diameter = formulas.alternator_diameter(power, stroke, speed)  # type: ignore[arg-type]
+        filled = panel.contourf(1e3 * stroke, frequency, diameter, levels, norm=norm, extend="both")
+        lines = panel.contour(
+            1e3 * stroke,
+            frequency,
+            diameter,
+            [0.01, 0.1, 1.0, 10.0],
+            colors="white",
+            linewidths=1.0,
+        )
+        panel.clabel(lines, fmt="%g m", fontsize="small")
+        panel.set_xlabel("stroke [mm]")
+        finish(panel, f"{power / 1e3:g} kW", None)
+    panels[0].set_ylabel("frequency [Hz]")
+    bar = panels[0].figure.colorbar(filled, ax=list(panels), ticks=[1e-3, 0.01, 0.1, 1.0, 10.0])
+    bar.set_label("outer diameter of the mover [m]")
+    bar.ax.set_yticklabels(["0.001", "0.01", "0.1", "1", "10"])
+    return panels
+
+
+def piston_mass(ax: Axes | None = None) -> Axes:
+    """Draw the mass of both piston heads [kg] over bore [mm] (Figure 65, Eq. 65).
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
+    ax = axes_or_new(ax)
+    bore = np.linspace(0.01, 0.1, 91)
+    ax.plot(1e3 * bore, [formulas.piston_mass(b) for b in bore], color=TRANSLATOR_COLOUR)
+    ax.set_xlabel("bore [mm]")
+    ax.set_ylabel("mass of both piston heads [kg]")
+    from_zero(ax)
+    return finish(ax, "Piston heads (Eq. 65)", None)
+
+
+def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> Axes:
+    """Draw the natural frequency [Hz] over spring stiffness [kN/m] (Figure 66, Eq. 67).
+
+    ``sqrt(2 k / m) / (2 pi)``, with the springs' share of the moving mass growing and without; both
+    begin with the mass of the least stiff springs.
+
+    Parameters
+    ----------
+    rest : float
+        Moving mass of all that is no spring [kg].
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
+    ax = axes_or_new(ax)
+    stiffness = np.linspace(5e3, 300e3, 200)
+    growing = rest + formulas.spring_mass(stiffness)  # type: ignore[arg-type]
+    cases: dict[str, tuple[Any, str]] = {
+        "springs as heavy as the softest": (np.full_like(stiffness, growing[0]), RIGHT_COLOUR),
+        "mass grows with stiffness (Eq. 67)": (growing, LEFT_COLOUR),
+    }
+    for label, (mass, colour) in cases.items():
+        frequency = np.sqrt(2.0 * stiffness / mass) / (2.0 * math.pi)
+        ax.plot(1e-3 * stiffness, frequency, color=colour, label=label)
+    ax.set_xlabel("spring stiffness [kN/m]")
+    ax.set_ylabel("natural frequency [Hz]")
+    from_zero(ax)
+    return finish(ax, f"Springs and {rest:g} kg", "upper left")

@@ -1,0 +1,311 @@
+"""Figures of sweeps: panels over an input (67-82), over the groups (115-124), design maps (87-91).
+
+Points that differ in kind look different: stable, unstable (an orbit from which the engine
+departs), unsteady (no orbit found; figures of the last simulated cycle), and points without any
+figures as ticks on the axis.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from saleg.plotting.style import LEFT_COLOUR, RIGHT_COLOUR, axes_or_new, finish, new_figure
+from saleg.status import Status
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+    from saleg.sweep.indices import Indices
+
+#: Figures of the panels, in order.
+PANELS = (
+    "largest_multiplier",
+    "compression_ratio",
+    "relative_stroke",
+    "score",
+    "frequency",
+    "efficiency",
+    "power_density",
+    "peak_pressure",
+)
+
+#: Ratio of the greatest to the least value beyond which an axis is logarithmic.
+WIDE = 40.0
+
+#: Names of columns as people read them; others are their own.
+WORDS = {
+    "largest_multiplier": "largest multiplier",
+    "relative_stroke": "stroke over maximum stroke",
+    "stroke_to_bore": "maximum stroke over bore",
+    "dimensionless_pressure": r"$\pi b^2 p_{in} / (4 L k)$",
+    "dimensionless_heat": r"$Q_{in} / (k L^2)$",
+    "frequency_ratio": r"$f_{ss} / \sqrt{k/m}$",
+    "egr": "EGR",
+}
+
+
+class Read(NamedTuple):
+    """Unit people read and the factor that leads there."""
+
+    factor: float
+    unit: str
+
+
+#: By SI unit, and by column where that decides.
+UNITS = {
+    "m": Read(1e3, "mm"),
+    "Pa": Read(1e-5, "bar"),
+    "W": Read(1e-3, "kW"),
+    "W/kg": Read(1e-3, "kW/kg"),
+    "N/m": Read(1e-3, "kN/m"),
+    "m^3": Read(1e6, "cm³"),
+}
+SHARES = ("efficiency", "egr", "port_location", "relative_stroke")
+
+
+class Kind(NamedTuple):
+    """How points of one kind are drawn."""
+
+    label: str
+    look: dict[str, Any]
+
+
+STABLE = Kind("stable", {"color": LEFT_COLOUR, "marker": ".", "markersize": 4, "linewidth": 1.4})
+UNSTABLE = Kind(
+    "unstable orbit",
+    {
+        "color": RIGHT_COLOUR,
+        "marker": "o",
+        "markerfacecolor": "white",
+        "markersize": 4.5,
+        "linewidth": 1.0,
+        "linestyle": "--",
+    },
+)
+UNSTEADY = Kind(
+    "no orbit found, last simulated cycle",
+    {"color": "0.45", "marker": "x", "markersize": 4.5, "linestyle": "none"},
+)
+NO_FIGURES = Kind(
+    "stalled, idling or invalid",
+    {"color": "#CC3311", "marker": "|", "markersize": 9, "linestyle": "none"},
+)
+
+
+def kinds(table: pd.DataFrame) -> list[tuple[Kind, np.ndarray]]:
+    """Kinds of points with the rows of each; without multipliers all orbits count as stable."""
+    status = table["status"].to_numpy()
+    steady = status == str(Status.STEADY)
+    stable = table["stable"].to_numpy(dtype=bool) if "stable" in table else steady
+    unsteady = status == str(Status.UNSTEADY)
+    return [
+        (STABLE, steady & stable),
+        (UNSTABLE, steady & ~stable),
+        (UNSTEADY, unsteady),
+        (NO_FIGURES, ~steady & ~unsteady),
+    ]
+
+
+def label(table: pd.DataFrame, name: str) -> str:
+    """Name and unit of a column as people read them."""
+    return f"{_named(name)} [{_read(table, name).unit}]"
+
+
+def _named(name: str) -> str:
+    return WORDS.get(name, name.replace("_", " ").replace(".", ": "))
+
+
+def _read(table: pd.DataFrame, name: str) -> Read:
+    unit = table.attrs["units"][name]
+    return Read(100.0, "%") if name in SHARES else UNITS.get(unit, Read(1.0, unit))
+
+
+def values(table: pd.DataFrame, name: str) -> np.ndarray:
+    """A column in the unit people read."""
+    return np.asarray(_read(table, name).factor * table[name].to_numpy(dtype=float))
+
+
+def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
+    """Draw stability, compression, performance and score along one input (Figures 67-82).
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`saleg.sweep.run` of designs with one input that varies.
+    x : str
+        That input.
+    ax : array of eight matplotlib.axes.Axes, optional
+        New ones unless given.
+
+    Returns
+    -------
+    array of matplotlib.axes.Axes
+    """
+    axes = _eight(ax, x)
+    ordered = table.sort_values(x)
+    ordered.attrs = table.attrs
+    for panel, name in zip(axes, _shown(table), strict=True):
+        at = values(ordered, x)
+        for kind, rows in kinds(ordered):
+            if rows.any():
+                _draw(panel, at, values(ordered, name), rows, kind)
+        _dress(panel, table, x, name)
+    _legend(axes)
+    return axes
+
+
+def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
+    """Draw a cloud of designs over a dimensionless group, coloured by score (Figures 117-124).
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`saleg.sweep.run` of designs.
+    x : str
+        "stroke_to_bore", "dimensionless_pressure", "dimensionless_heat", "frequency_ratio", or any
+        other column.
+    ax : array of eight matplotlib.axes.Axes, optional
+        New ones unless given.
+
+    Returns
+    -------
+    array of matplotlib.axes.Axes
+    """
+    axes = _eight(ax, x)
+    kept = _orbits(table).sort_values("score")
+    kept.attrs = table.attrs
+    for panel, name in zip(axes, _shown(table), strict=True):
+        dots = panel.scatter(
+            values(kept, x),
+            values(kept, name),
+            c=kept["score"],
+            s=7,
+            linewidths=0,
+        )
+        if np.nanmax(values(kept, name)) > WIDE * abs(np.nanmin(values(kept, name))):
+            panel.set_yscale("log")
+        _dress(panel, table, x, name)
+    axes[0].figure.colorbar(dots, ax=list(axes), label="score [-]", aspect=40, pad=0.01)
+    return axes
+
+
+def design_map(
+    table: pd.DataFrame, x: str, y: str, z: str, colour: str = "score", ax: Any = None
+) -> Any:
+    """Draw designs over three columns, coloured by a fourth (Figures 87-91).
+
+    Each design stands on a thin line, so that its place can be read in the ground plane.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`saleg.sweep.run` of designs.
+    x, y, z, colour : str
+        Columns.
+    ax : mpl_toolkits.mplot3d.axes3d.Axes3D, optional
+        New ones unless given.
+
+    Returns
+    -------
+    Axes3D
+    """
+    if ax is None:
+        ax = new_figure(7.4, 5.8).add_subplot(projection="3d")
+    kept = _orbits(table).sort_values(colour)
+    kept.attrs = table.attrs
+    at = [values(kept, name) for name in (x, y, z)]
+    floor = float(at[2].min()) - 0.04 * float(np.ptp(at[2]))
+    for a, b, c in zip(*at, strict=True):
+        ax.plot([a, a], [b, b], [floor, c], color="0.85", linewidth=0.4, zorder=0)
+    dots = ax.scatter(*at, c=values(kept, colour), s=14, depthshade=False)
+    ax.set_zlim(bottom=floor)
+    ax.set_xlabel(label(table, x))
+    ax.set_ylabel(label(table, y))
+    ax.set_zlabel(label(table, z))
+    ax.figure.colorbar(dots, ax=ax, label=label(table, colour), shrink=0.75, pad=0.12)
+    ax.set_title(f"{len(kept)} of {len(table)} designs have an orbit", fontsize="medium")
+    return ax
+
+
+def indices(found: Indices, ax: Axes | None = None) -> Axes:
+    """Draw Sobol' indices as bars with their intervals, the most important input on top.
+
+    Parameters
+    ----------
+    found : Indices
+    ax : matplotlib.axes.Axes, optional
+        New ones unless given.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
+    table = found.table.sort_values("total")
+    ax = axes_or_new(ax, height=1.2 + 0.42 * len(table))
+    rows = np.arange(len(table))
+    for kind, colour, shift in (("total", "0.75", 0.19), ("first", LEFT_COLOUR, -0.19)):
+        value = table[kind].to_numpy()
+        ends = [value - table[f"{kind}_low"], table[f"{kind}_high"] - value]
+        named = {"total": "with all interactions", "first": "by itself"}[kind]
+        look: dict[str, Any] = {"height": 0.36, "color": colour, "label": named}
+        error = {"elinewidth": 0.8, "capsize": 2, "ecolor": "0.25"}
+        ax.barh(rows + shift, value, xerr=np.maximum(ends, 0.0), error_kw=error, **look)
+    ax.set_yticks(rows, [_named(str(name)) for name in table.index])
+    ax.set_xlabel("share of the variance [-]")
+    ax.set_xlim(left=min(0.0, ax.get_xlim()[0]))
+    return finish(ax, f"What decides about the {found.figure.replace('_', ' ')}", "lower right")
+
+
+def _orbits(table: pd.DataFrame) -> pd.DataFrame:
+    """Rows with a steady state."""
+    return table[table["status"] == str(Status.STEADY)]
+
+
+def _shown(table: pd.DataFrame) -> list[str]:
+    """Columns of the panels; the moving mass where there are no multipliers."""
+    return [name if name in table else "moving_mass" for name in PANELS]
+
+
+def _eight(ax: Any, x: str) -> np.ndarray:
+    if ax is not None:
+        return np.ravel(ax)
+    figure = new_figure(13.2, 6.2)
+    return np.ravel(figure.subplots(2, 4, sharex=True))
+
+
+def _draw(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind: Kind) -> None:
+    """Points of a kind, joined only where neighbours are of it; without figures, on the axis."""
+    if kind is NO_FIGURES:
+        panel.plot(
+            x[rows],
+            np.full(int(rows.sum()), 0.02),
+            transform=panel.get_xaxis_transform(),
+            label=kind.label,
+            **kind.look,
+        )
+        return
+    panel.plot(x, np.where(rows, y, np.nan), label=kind.label, **kind.look)
+
+
+def _dress(panel: Axes, table: pd.DataFrame, x: str, name: str) -> None:
+    """Labels of a panel; the unit circle where multipliers are drawn."""
+    finish(panel, label(table, name), None)
+    if panel.get_subplotspec() is None or panel.get_subplotspec().is_last_row():  # type: ignore[union-attr]
+        panel.set_xlabel(label(table, x))
+    if name == "largest_multiplier":
+        panel.axhline(1.0, color="black", linewidth=0.8, linestyle=":")
+        panel.set_ylim(0.0, max(1.2, min(panel.get_ylim()[1], 3.0)))
+
+
+def _legend(axes: np.ndarray) -> None:
+    """One legend for all panels, below them."""
+    handles: dict[str, Any] = {}
+    for panel in axes:
+        for handle, text in zip(*panel.get_legend_handles_labels(), strict=True):
+            handles.setdefault(text, handle)
+    axes[0].figure.legend(
+        handles.values(), handles.keys(), loc="outside lower center", ncols=4, frameon=False
+    )
