@@ -117,7 +117,7 @@ def test_designs_of_table_9_from_their_inputs_alone(computed, printed):
 
 
 def test_the_outlier_of_table_9_is_one(computed, printed):
-    """At 25 kW springs, rod and pistons leave a fiftieth of the mass a mover needs."""
+    """At 25 kW springs, rod and pistons leave a tenth of the mass a mover needs."""
     off = deviations(computed, printed)
     assert off.mass[OUTLIER] == pytest.approx(0.18, abs=0.02)
     assert off.frequency[OUTLIER] == pytest.approx(-0.08, abs=0.01)
@@ -189,6 +189,9 @@ def test_eq_63_leaves_out_the_crankcase(printed):
     assert as_printed.std() / as_printed.mean() > 0.12
     assert with_crankcase.std() / with_crankcase.mean() < 0.035
     assert with_crankcase.mean() == pytest.approx(820.0, rel=0.02)
+    roomy = saleg.design.evaluate(Design(masses=MassModel.with_crankcase()))
+    assert roomy.moving_mass == pytest.approx(2.39, rel=0.006)
+    assert roomy.performance.frequency == pytest.approx(47.02, rel=0.003)
     # In the outlier next to nothing is left for the alternator, either way.
     assert alternator_densities(printed.loc[[OUTLIER]], crankcase=1.0)[0] < 100.0
 
@@ -213,7 +216,10 @@ def test_geometry_fits_together(base_design):
     assert g.head - g.crown == pytest.approx(length)
     assert g.bearing - g.mover_end == pytest.approx(length)
     assert g.head - g.port == pytest.approx(0.133)
-    assert g.crown - length >= g.bearing
+    # As Eq. 63 is printed the piston would have to pass the bearing; with a crankcase it has room.
+    assert g.crown - length < g.bearing
+    roomy = saleg.design.evaluate(Design(masses=MassModel.with_crankcase())).geometry
+    assert roomy.crown - length >= roomy.bearing
     assert g.mover_inner_diameter == pytest.approx(0.8 * g.mover_outer_diameter)
     assert math.pi * g.rod_diameter**2 / 4.0 == pytest.approx(75e-6)
     assert g.length == 2.0 * g.head
@@ -292,7 +298,7 @@ def test_what_fails_is_said():
     assert stalled.status is Status.STALLED
     assert not stalled.found
     assert stalled.moving_mass > 0.0
-    with pytest.raises(saleg.design.InvalidDesign, match="port_location = 1.2"):
+    with pytest.raises(saleg.design.InvalidDesign, match=r"port_location = 1\.2"):
         saleg.design.evaluate(port_location=1.2)
     with pytest.raises(saleg.UnknownPath, match="bore"):
         saleg.design.evaluate(boer=0.06)
@@ -360,7 +366,7 @@ def test_score_rewards_what_figure_85_rewards():
 
 def test_figures_of_the_design(base_design):
     ax = base_design.draw()
-    assert "990 mm" in ax.get_title()
+    assert "789 mm" in ax.get_title()
     assert ax.get_aspect() == 1.0
     drawings.piston_mass()
     panels = drawings.alternator_map()
@@ -374,5 +380,5 @@ def test_figures_of_the_design(base_design):
 
 
 def test_geometry_of_an_engine_without_output():
-    idle = Geometry.of(Parameters(), saleg.design.AlternatorMover(), Operation(0.1, 40.0, 0.0))
+    idle = Geometry.of(Parameters(), MassModel(), Operation(0.1, 40.0, 0.0))
     assert idle.mover_outer_diameter == 0.0

@@ -170,7 +170,7 @@ class Design:
                 raise UnknownPath(f"no '{path}' in the mass models")
             return self.masses, chain
         if path not in known_paths(self.laws):
-            near = difflib.get_close_matches(str(path), [*NAMES, *known_paths(self.laws)], n=3)
+            near = difflib.get_close_matches(str(path), [*NAMES, *known_paths(self.laws)], 3, 0.5)
             hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else ""
             raise UnknownPath(f"no '{path}' in a design{hint}")
         return self.laws, None

@@ -104,20 +104,18 @@ def bearing_position(mover_half_length: float, half_stroke: float) -> float:
     return mover_half_length + half_stroke
 
 
-def crown_position(bearing: float, crankcase: float) -> float:
-    """Distance L_P from midpoint to piston crown [m] (Eq. 63 with what it leaves out).
+def crown_position(bearing: float, crankcase: float = 0.0) -> float:
+    """Distance L_P from midpoint to piston crown [m] (Eq. 63): ``L_P = L_B + 14 mm``.
 
-    ``L_P = L_B + L + 14 mm``. Printed is ``L_B + 14 mm``, with which the piston would run into the
-    bearing; the text asks for a clearance of L beneath it, and with it the masses of Table 9 and
-    of the base case agree with one density of the alternator (docs/design.md).
+    As printed the piston has no room before the bearing; the text asks for a clearance of L beneath
+    it, and the masses of Table 9 say that it was there (docs/design.md).
 
     Parameters
     ----------
     bearing : float
         Distance L_B from midpoint to inner bearing [m].
     crankcase : float
-        Clearance beneath the piston [m]: the neutral clearance length L; 0 for the equation as
-        printed.
+        Clearance between bearing and piston [m]; 0 for the equation as printed.
 
     Returns
     -------
@@ -125,8 +123,8 @@ def crown_position(bearing: float, crankcase: float) -> float:
 
     Examples
     --------
-    >>> round(crown_position(0.28, 0.1), 3)
-    0.394
+    >>> round(crown_position(0.28), 3)
+    0.294
     """
     return bearing + crankcase + BEARING_LENGTH
 

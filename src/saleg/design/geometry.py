@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 
 from saleg.design import formulas
-from saleg.design.masses import AlternatorMover
+from saleg.design.masses import ConnectingRod, MassModel
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 
@@ -47,12 +47,17 @@ class Geometry:
     head: float
 
     @classmethod
-    def of(cls, parameters: Parameters, mover: AlternatorMover, operation: Operation) -> Geometry:
-        """Geometry of a design at its steady state (Eq. 60-64)."""
+    def of(cls, parameters: Parameters, masses: MassModel, operation: Operation) -> Geometry:
+        """Geometry of a design at its steady state (Eq. 60-64).
+
+        A rod without a method ``crown`` leaves the crown where Eq. 63 puts it.
+        """
+        mover = masses.alternator
         length = parameters.half_stroke
         outer = mover.outer_diameter(operation)
         bearing = formulas.bearing_position(operation.stroke, length)
-        crown = formulas.crown_position(bearing, length)
+        rod = masses.rod if isinstance(masses.rod, ConnectingRod) else ConnectingRod()
+        crown = rod.crown(parameters, operation)
         return cls(
             mover_outer_diameter=outer,
             mover_inner_diameter=mover.inner_ratio * outer,

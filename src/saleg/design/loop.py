@@ -99,7 +99,7 @@ def solve(
     --------
     >>> found = solve(Design())
     >>> round(found.moving_mass, 2), abs(found.mass_error) < 1e-6
-    (2.38, True)
+    (2.33, True)
     """
     check_tolerance(rtol)
     design.validate()

@@ -50,7 +50,7 @@ class DesignedState(SteadyState):
     @cached_property
     def geometry(self) -> Geometry:
         """Dimensions (Table 7)."""
-        return Geometry.of(self.design.parameters, self.design.masses.alternator, self.operation)
+        return Geometry.of(self.design.parameters, self.design.masses, self.operation)
 
     @property
     def shown_performance(self) -> Performance:

@@ -78,16 +78,17 @@ def _housing(ax: Axes, mm: dict[str, float], side: float) -> None:
     """Head, liner with its ports, and bearing of one side."""
     radius, look = 0.5 * mm["bore"], {"color": HOUSING, "linewidth": 0.0}
     _box(ax, side * mm["head"], -radius - WALL, side * WALL, 2 * (radius + WALL), **look)
-    inner = mm["bearing"]
+    width = min(0.06 * mm["head"], 3 * WALL)
+    inner = min(mm["bearing"], mm["port"] - width)
     for y in (radius, -radius - WALL):
         _box(ax, side * inner, y, side * (mm["port"] - inner), WALL, **look)
         _box(ax, side * mm["port"], y, side * (mm["head"] - mm["port"]), WALL, **look)
-        port = min(0.12 * (mm["head"] - inner), 3 * WALL)
-        _box(ax, side * (mm["port"] - port), y, side * port, WALL, color="white", zorder=3)
-        _box(ax, side * (mm["port"] - port), y, side * port, WALL, ec=HOUSING, fc="none", zorder=4)
+        edge = side * (mm["port"] - width)
+        _box(ax, edge, y, side * width, WALL, color="white", zorder=3)
+        _box(ax, edge, y, side * width, WALL, ec=HOUSING, fc="none", zorder=4)
     rod = 0.5 * mm["rod_diameter"]
     for y in (rod, -radius - WALL):
-        _box(ax, side * inner, y, side * BEARING, radius + WALL - rod, **look)
+        _box(ax, side * mm["bearing"], y, side * BEARING, radius + WALL - rod, **look)
 
 
 def _springs(ax: Axes, mm: dict[str, float], side: float) -> None:
@@ -245,7 +246,7 @@ def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> Axes:
     """
     ax = axes_or_new(ax)
     stiffness = np.linspace(5e3, 300e3, 200)
-    growing = rest + formulas.spring_mass(stiffness)  # type: ignore[arg-type]
+    growing = rest + np.array([formulas.spring_mass(k) for k in stiffness])
     cases: dict[str, tuple[Any, str]] = {
         "springs as heavy as the softest": (np.full_like(stiffness, growing[0]), RIGHT_COLOUR),
         "mass grows with stiffness (Eq. 67)": (growing, LEFT_COLOUR),

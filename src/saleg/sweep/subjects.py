@@ -14,6 +14,7 @@ from saleg.design.many import Follower
 from saleg.engine import Engine
 from saleg.paths import unit_of
 from saleg.steady import steady_state
+from saleg.sweep.points import SweepError
 
 Values = Mapping[str, float]
 
@@ -87,7 +88,9 @@ class EngineSubject:
         return {"kind": "engine", "laws": self.engine.to_toml()}
 
     def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
-        """What makes a row of a point; every point is solved from the engine's own starts."""
+        """What makes a row of a point, from the engine's own starts."""
+        if warm:
+            raise SweepError("warm starts are for designs; an engine begins with its own starts")
 
         def row(values: Values) -> Row:
             found = steady_state(self.engine.replace(**values), rtol=rtol)
