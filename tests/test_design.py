@@ -257,14 +257,14 @@ def test_the_loop_costs_at_most_twice_a_plain_steady_state():
         for values, mass in zip(points.to_dict("records"), table.moving_mass, strict=True)
     ]
     plain = saleg.steady_states(engines)
-    assert table.half_cycles.sum() <= 2.0 * plain.half_cycles.sum()
+    assert table.half_cycles.sum() <= 1.4 * plain.half_cycles.sum()
 
 
 def test_a_neighbour_is_a_start(base_design):
+    """It leads to the same orbit where there is but one."""
     near = base_design.design.replace(bore=0.0642)
     warm = saleg.design.solve(near, near=base_design)
     cold = saleg.design.solve(near)
-    assert warm.half_cycles < cold.half_cycles
     assert warm.moving_mass == pytest.approx(cold.moving_mass, rel=5e-6)
     assert warm.quick_performance.power == pytest.approx(cold.quick_performance.power, rel=1e-5)
 

@@ -119,7 +119,6 @@ def test_warm_starts_find_the_same_along_a_line():
     cold = sweep.run(points, multipliers=False)
     warm = sweep.run(points, multipliers=False, warm=True)
     np.testing.assert_allclose(warm.power, cold.power, rtol=2e-5)
-    assert warm.half_cycles.sum() < cold.half_cycles.sum()
 
 
 # ---- executors ---------------------------------------------------------------------------------

@@ -1,16 +1,17 @@
 """The closed loop: a moving mass and a steady state that belong together.
 
-The components are sized for the steady state, which depends on their mass: one more unknown. What
-the mass sizes is stroke, frequency and power, and these hardly feel it (a mass 10 % off gives one
-that is about 0.2 % off), so a few secant steps suffice, each from the orbit of the last.
+The components are sized for the steady state, which depends on their mass: one more unknown. The
+mass is an entry of the vector whose fixed point is looked for, renewed by every map from stroke and
+work, so that the loop costs hardly more than a steady state of a given mass.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import chain, repeat
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,20 +40,13 @@ from saleg.steady import (
 #: Relative difference allowed between the mass of the orbit and that of the components, over the
 #: tolerance of the integrator.
 MASS_TOLERANCE = 1.0
-#: Maps after which the first guess of the mass is improved.
-FIRST_MAPS = 7
-#: Orbits tried; dependence of the mass wanted on the mass given before it is known, its greatest
-#: magnitude, and the change below which the noise of the orbits hides it.
+#: Orbits tried until the mass is that of the components; one will do for Eq. 60-67.
 MOST_ORBITS = 15
-TYPICAL_SLOPE, MOST_SLOPE = -0.02, 0.5
-LEAST_CHANGE = 1e-4
-#: Fields of the engine's record that count, and whole numbers at the head of a chamber's.
-COUNTS = ["strokes", "steps", "steps_at_dead_centre", "rejected", "evaluations"]
-N_MODES = [layout.CHAMBER_RECORD[name] for name in layout.CHAMBER_RECORD.names or ()].count(
-    np.dtype(np.int64)
-)
-#: Where no strokes were completed.
-NOWHERE = Operation(0.0, 0.0, 0.0)
+#: Relative step of differences of the mass, and the fields of the engine's record they go into.
+STEP = 1e-3
+#: How a map is told its mass, given the operation of the last orbit.
+Way = Callable[[State, Design, Operation], None]
+LAW = ("mass_fixed", "mass_per_stroke", "mass_per_work")
 #: Simulations that try to find mass and motion together where no fixed point is found, and strokes
 #: at their end over which stroke, frequency and power are averaged.
 MOST_SIMULATIONS = 3
@@ -80,7 +74,7 @@ def solve(
     rtol : float
         Tolerance of the integrator, of the state after a return, and of the mass.
     near : DesignedState, optional
-        A neighbour's orbit to start from: faster, and follows its branch where there are several.
+        A neighbour's orbit to start from, which follows its branch where there are several.
 
     Returns
     -------
@@ -110,8 +104,10 @@ def solve(
         return _simulated(design, guess, rtol, Spent(), why)
     mirrored = is_symmetric(engine)
     spent = Spent()
-    for chart, maps in _charts(design, guess, rtol, mirrored, near):
-        orbit = _closed(design, chart, rtol, maps)
+    charts = _charts(design, guess, rtol, mirrored, near)
+    one_by_one = _charts(design, guess, rtol, mirrored, None)
+    for chart, way in chain(zip(charts, repeat(_set_law)), zip(one_by_one, repeat(_set_mass))):
+        orbit = _closed(design, chart, rtol, way)
         spent = Spent(spent.half_cycles + orbit.half_cycles, spent.evaluations + chart.evaluations)
         if orbit.found:
             steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
@@ -159,16 +155,16 @@ def _mass(design: Design, operation: Operation) -> float:
 
 def _charts(
     design: Design, guess: float, rtol: float, mirrored: bool, near: DesignedState | None
-) -> Iterator[tuple[ReturnMap, int]]:
-    """Return maps to try, with the maps before the mass is improved first."""
+) -> Iterator[ReturnMap]:
+    """Return maps to try."""
     if near is not None and near.replay is not None:
         engine = design.engine(near.moving_mass)
         state = near_state(engine, near)
         if state is not None:
-            yield ReturnMap.of(engine, state, rtol, mirrored), 0
+            yield ReturnMap.of(engine, state, rtol, mirrored)
     engine = design.engine(guess)
     for start in starts(engine):
-        yield _chart(engine, start, rtol, mirrored), FIRST_MAPS
+        yield _chart(engine, start, rtol, mirrored)
 
 
 def _chart(engine: Engine, start: Start, rtol: float, mirrored: bool) -> ReturnMap:
@@ -205,74 +201,56 @@ class _Orbit(NamedTuple):
     operation: Operation
 
 
-def _closed(design: Design, chart: ReturnMap, rtol: float, maps: int) -> _Orbit:
-    """Iterate orbit and mass until they agree; the chart then holds the orbit with its engine."""
-    mass = float(chart.engine.translator.mass)
-    slope, spent = TYPICAL_SLOPE, 0
-    if maps:
-        code, found = chart.find(maps, 0.0)
-        spent += int(found[0] * chart.strokes_per_map)
-        if code != layout.NOT_FOUND:
-            return _Orbit(False, spent, math.nan, NOWHERE)
-        wanted = _mass(design, Operation.of_strokes(chart.strokes[: int(chart.strokes_per_map)]))
-        mass += (wanted - mass) / (1.0 - slope)
-    before: _Tried | None = None
+def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way) -> _Orbit:
+    """Find an orbit whose mass is that of its components; the chart then holds its engine too."""
+    spent, operation = 0, Operation.guess(chart.engine)
     for _ in range(MOST_ORBITS):
-        chart.state.engine["mass"] = mass
+        way(chart.state, design, operation)
         code, found = chart.find(MOST_MAPS, RESIDUAL * rtol)
         spent += int(found[0] * chart.strokes_per_map)
         if code != layout.END_OF_TIME:
             break
         spent += 2
         operation = Operation.of_strokes(chart.strokes[:2])
-        now = _Tried(mass, _mass(design, operation), chart.state.copy())
-        if abs(now.wanted / mass - 1.0) <= MASS_TOLERANCE * rtol:
+        mass = float(chart.state.engine["mass"][0])
+        if abs(_mass(design, operation) / mass - 1.0) <= MASS_TOLERANCE * rtol:
             chart.engine = dataclasses.replace(chart.engine, translator=Translator(mass))
+            _give_mass(chart)
             return _Orbit(converged(code, found, rtol), spent, float(found[2]), operation)
-        slope = _slope(before, now, slope)
-        mass += (now.wanted - mass) / (1.0 - slope)
-        if before is not None:
-            _extrapolate(chart.state, before, now, mass)
-        before = now
-    return _Orbit(False, spent, math.nan, NOWHERE)
+    return _Orbit(False, spent, math.nan, operation)
 
 
-class _Tried(NamedTuple):
-    """A mass given, the mass wanted on its orbit, and the state there."""
-
-    given: float
-    wanted: float
-    state: State
+def _set_mass(state: State, design: Design, operation: Operation) -> None:
+    """Give the map the mass for an operation: slower, but finds orbits the other way may miss."""
+    state.engine["mass"] = _mass(design, operation)
 
 
-def _extrapolate(state: State, before: _Tried, now: _Tried, mass: float) -> None:
-    """Move a state to where the orbits of the last two masses point; counts stay as they are."""
-    if abs(now.given - before.given) < LEAST_CHANGE * now.given:
-        return
-    if [*before.state.chambers["mode"]] != [*now.state.chambers["mode"]]:
-        return
-    share = (mass - now.given) / (now.given - before.given)
-    if abs(share) > 1.0:
-        return
-    for held, new, old in zip(
-        _floats(state), _floats(now.state), _floats(before.state), strict=True
-    ):
-        held += share * (new - old)
-    state.engine[COUNTS] = now.state.engine[COUNTS]
+def _set_law(state: State, design: Design, operation: Operation) -> None:
+    """Tell the map how the mass follows from stroke S and work W of a stroke.
+
+    ``m_0 + m_S S + m_W W^2 / S^3`` is what Eq. 60-67 come to; other mass models are given its
+    tangent at an operation, anew after every orbit.
+    """
+    S, W = operation.stroke, 0.5 * operation.power / operation.frequency
+    total = _mass(design, operation)
+    by_work = _mass(design, operation._replace(power=(1.0 + STEP) * operation.power)) - total
+    longer = operation._replace(stroke=(1.0 + STEP) * S)
+    by_stroke = (_mass(design, longer) - total) / (STEP * S)
+    # d(W^2/S^3) = 2 W dW / S^3 - 3 W^2 dS / S^4; differences of (1 + STEP)^2 - 1 and the like.
+    load = W**2 / S**3
+    per_work = by_work / (load * ((1.0 + STEP) ** 2 - 1.0)) if load > 0.0 else 0.0
+    per_stroke = by_stroke - per_work * load * ((1.0 + STEP) ** -3 - 1.0) / (STEP * S)
+    fixed = total - per_stroke * S - per_work * load
+    values = (fixed, per_stroke, per_work) if fixed > 0.0 else (total, 0.0, 0.0)
+    for name, value in zip(LAW, values, strict=True):
+        state.engine[name] = value
 
 
-def _floats(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """All numbers of a state but the modes of its chambers, in place."""
-    chambers = state.chambers.view(np.float64).reshape(2, -1)
-    return state.engine.view(np.float64), chambers[:, N_MODES:], state.y
-
-
-def _slope(before: _Tried | None, now: _Tried, known: float) -> float:
-    """Dependence of the mass wanted on the mass given, from the last two orbits."""
-    if before is None or abs(now.given - before.given) < LEAST_CHANGE * now.given:
-        return known
-    slope = (now.wanted - before.wanted) / (now.given - before.given)
-    return min(max(slope, -MOST_SLOPE), MOST_SLOPE)
+def _give_mass(chart: ReturnMap) -> None:
+    """From now on the mass is given: what disturbs the orbit does not rebuild the engine."""
+    for record in (chart.state.engine, chart.snapshot[0]):
+        for name in LAW:
+            record[name] = 0.0
 
 
 def _closed_message(state: DesignedState) -> DesignedState:

@@ -45,7 +45,7 @@ N_ALL = N_STATE + N_QUADRATURES
 
 # Length of the vector a state at a dead centre is written as (see kernel/orbit.py).
 VECTOR_PER_SIDE = 11
-N_VECTOR = 8 + 2 * VECTOR_PER_SIDE
+N_VECTOR = 8 + 2 * VECTOR_PER_SIDE + 1
 
 # Quantities whose greatest value in a stroke is kept.
 PEAK_PRESSURE = 0
@@ -123,6 +123,9 @@ ENGINE_RECORD = np.dtype(
             "steps",
             "rejected",
             "evaluations",
+            "mass_fixed",
+            "mass_per_stroke",
+            "mass_per_work",
         )
     ]
 )

@@ -57,6 +57,7 @@ Z_RATIO = 7
 Z_BURN_PHASE = 8
 Z_LN_DURATION = 9
 Z_TO_BURN = 10
+Z_LN_MASS_MOVING = Z_CHAMBERS + 2 * VECTOR_PER_SIDE
 
 
 @compiled
@@ -70,6 +71,7 @@ def write_vector(E, C, y, z):
     z[Z_FUEL_ENERGY] = E.last_fuel_energy / (E.mass * E.speed_scale**2)
     z[Z_SPEED_SQUARED] = E.last_speed_squared / (E.speed_scale * E.length_scale)
     z[Z_AMPERES] = y[CURRENT] / E.current_scale
+    z[Z_LN_MASS_MOVING] = log(E.mass) if E.mass_fixed > 0.0 else 0.0
     for side in range(2):
         c = C[side]
         first = Z_CHAMBERS + VECTOR_PER_SIDE * side
@@ -102,6 +104,8 @@ def read_vector(E, C, y, z):
     E.last_fuel_energy = z[Z_FUEL_ENERGY] * (E.mass * E.speed_scale**2)
     E.last_speed_squared = z[Z_SPEED_SQUARED] * (E.speed_scale * E.length_scale)
     y[CURRENT] = z[Z_AMPERES] * E.current_scale
+    if E.mass_fixed > 0.0:
+        E.mass = exp(z[Z_LN_MASS_MOVING])
     for side in range(2):
         c = C[side]
         first = Z_CHAMBERS + VECTOR_PER_SIDE * side
@@ -245,6 +249,22 @@ def verified(run, vectors, found):
 
 
 @compiled
+def resize(E, rows, strokes):
+    """Moving mass that suits the latest strokes: ``m_0 + m_S S + m_W W^2 / S^3``.
+
+    S is their mean length and W their mean electrical work. An engine whose mass is given has no
+    fixed part m_0 and keeps it.
+    """
+    if E.mass_fixed <= 0.0:
+        return
+    length, work = 0.0, 0.0
+    for n in range(strokes):
+        length += abs(rows[n].x_end - rows[n].x_start) / strokes
+        work += rows[n].electrical_energy / strokes
+    E.mass = E.mass_fixed + E.mass_per_stroke * length + E.mass_per_work * work**2 / length**3
+
+
+@compiled
 def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, found):
     """Iterate and extrapolate the return map until a state returns to itself; take one cycle then.
 
@@ -263,6 +283,7 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
         if code != END_OF_TIME:
             return code
         found[0] += 1.0
+        resize(E, run[8], int(strokes_per_map))
         write_vector(E, C, y, image)
         alike = same_modes(C, modes)
         found[1] = distance(image, z)

@@ -67,8 +67,8 @@ def run(
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     warm : bool
-        For designs: start each point from the one before it in its chunk. Follows a branch where
-        there are several steady states, and is faster where neighbours are near.
+        For designs: start each point from the one before it in its chunk, which follows a branch
+        where there are several steady states. It is no faster.
     report : callable, optional
         Called with the numbers of points done and of all points, after what is done is on disk.
 
