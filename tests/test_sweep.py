@@ -405,6 +405,19 @@ def test_half_stroke():
     assert table.stable.iloc[0]
 
 
+def test_a_limited_load_runs_away_where_the_thesis_does():
+    """The text limits the load without saying how far; 1.5 puts the turn at its 80 mm."""
+    limited = Design().replace({"alternator.maximum_weight": 1.5})
+    bores = sweep.grid({"bore": [0.070, 0.075, 0.080, 0.085, 0.090]})
+    free, held = sweep.run(bores), sweep.run(bores, limited)
+    excess = (held.compression_ratio / free.compression_ratio).to_numpy()
+    assert (excess[:2] < 1.001).all()
+    assert excess[2] < 1.1
+    assert excess[3] > 1.3
+    assert excess[4] > 1.7
+    assert held.efficiency[4] < held.efficiency[2]
+
+
 def test_borders_with_room_beneath_the_pistons():
     """A longer rod moves them: phi to the text's "around 0.2", L beyond its "around 250"."""
     roomy = Design(masses=MassModel.with_crankcase())
