@@ -144,7 +144,7 @@ def evaluate(
     >>> import saleg
     >>> found = saleg.design.evaluate(bore=0.06)
     >>> found.stable, round(found.geometry.mover_outer_diameter, 3)
-    (True, 0.084)
+    (True, 0.083)
     """
     return solve((design or Design()).replace(values), rtol=rtol)
 

@@ -48,7 +48,7 @@ class AlternatorMover:
     --------
     >>> mover = AlternatorMover()
     >>> round(mover.mass(Parameters(), Operation(0.1807, 47.0, 22.6e3)), 3)
-    0.804
+    0.803
     """
 
     specific_thrust: float = quantity(
