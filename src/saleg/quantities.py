@@ -6,6 +6,7 @@ import dataclasses
 import itertools
 import math
 import reprlib
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 
@@ -157,6 +158,11 @@ def is_number(value: Any) -> bool:
     return getattr(value, "ndim", 0) == 0
 
 
+@lru_cache(maxsize=1024)
+def _fields(kind: Any) -> tuple[dataclasses.Field[Any], ...]:
+    return dataclasses.fields(kind)
+
+
 def problems(node: Any, path: str = "") -> list[Problem]:
     """List every field of a dataclass tree that is not a number within its allowed range.
 
@@ -174,18 +180,21 @@ def problems(node: Any, path: str = "") -> list[Problem]:
         Empty when everything is well.
     """
     found: list[Problem] = []
-    for field in dataclasses.fields(node):
+    kind: Any = type(node)
+    for field in _fields(kind):
         value = getattr(node, field.name)
-        where = f"{path}.{field.name}" if path else field.name
         limits = field.metadata.get("limits")
+        if limits is not None and type(value) is float and limits.low < value < limits.high:
+            continue  # by far the most
+        where = f"{path}.{field.name}" if path else field.name
         if "series" in field.metadata:
             found.extend(_series_problems(node, field, where))
         elif limits is not None:
             if not is_number(value):
                 found.append(Problem(where, value, limits.unit, limits.wanted("a number")))
             elif not math.isfinite(value) or not limits.admits(float(value)):
-                kind = "" if math.isfinite(value) else "a finite number"
-                found.append(Problem(where, value, limits.unit, limits.wanted(kind)))
+                need = "" if math.isfinite(value) else "a finite number"
+                found.append(Problem(where, value, limits.unit, limits.wanted(need)))
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             found.extend(problems(value, where))
         elif hasattr(node, "compiled") and not is_number(value):  # a law's record holds numbers

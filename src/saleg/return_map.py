@@ -11,7 +11,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.compose import Kernel, kernel_for, needs_motored_pressure, parameters
-from saleg.kernel.orbit import CYCLE, FIND, IMAGE, Z_AMPERES, write_vector
+from saleg.kernel.orbit import CYCLE, DEPTH, FIND, IMAGE, Z_AMPERES, write_vector
 from saleg.laws import NoMisfires
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Alternator
@@ -160,7 +160,8 @@ class ReturnMap:
     def _vectors(self) -> tuple[np.ndarray, ...]:
         """Room for points, residuals and images."""
         n = layout.N_VECTOR
-        return np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros((2, n))
+        old = np.zeros((2, DEPTH, n))
+        return np.zeros(n), np.zeros(n), np.zeros(n), old[0], old[1], np.zeros((DEPTH, DEPTH + 2))
 
     def reset(self, state: State) -> None:
         """Go to a copy of a state."""

@@ -18,6 +18,7 @@ import types
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from functools import lru_cache
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -148,12 +149,14 @@ def _is_ours(law: type[Law]) -> bool:
 def parameters(engine: Engine) -> np.ndarray:
     """All numbers of an engine's laws as an array of one record."""
     laws = [law for place in laws_of(engine).values() for law in place.values()]
-    flat = [
-        number
-        for law in laws
-        for value in values_of(law)
-        for number in (value if isinstance(value, (tuple, list)) else (value,))
-    ]
+    flat: list[float] = []
+    for law in laws:
+        kind: Any = type(law)
+        if _series_names(kind):
+            for value in values_of(law):
+                flat.extend(value if isinstance(value, (tuple, list)) else (value,))
+        else:
+            flat.extend(values_of(law))
     record = _record_of_all(tuple(type(law) for law in laws), tuple(map(_lengths, laws)))
     return np.array(flat, np.float64).view(record)
 
@@ -171,6 +174,21 @@ def _record_of_all(classes: tuple[Any, ...], lengths: tuple[Lengths, ...]) -> np
 @lru_cache(maxsize=256)
 def _names(law: Any) -> tuple[str, ...]:
     return tuple(item.name for item in dataclasses.fields(law))
+
+
+@lru_cache(maxsize=256)
+def _series_names(law: Any) -> tuple[str, ...]:
+    """Fields of a law class that hold a series of numbers."""
+    return tuple(item.name for item in dataclasses.fields(law) if "series" in item.metadata)
+
+
+@lru_cache(maxsize=256)
+def _reader(law: Any) -> Callable[[Law], Any]:
+    """What takes all numbers of a law of some class at once."""
+    names = _names(law)
+    return (
+        attrgetter(*names) if len(names) > 1 else lambda one: tuple(getattr(one, n) for n in names)
+    )
 
 
 def record_of(law: Law) -> np.dtype:
@@ -192,14 +210,13 @@ def _record(law: Any, lengths: Lengths) -> np.dtype:
 def values_of(law: Law) -> tuple[Any, ...]:
     """Numbers of a law in the order of its record."""
     kind: Any = type(law)
-    return tuple(getattr(law, name) for name in _names(kind)) or (0.0,)
+    return _reader(kind)(law) or (0.0,)
 
 
 def _lengths(law: Law) -> Lengths:
     """How many numbers there are in each series of a law."""
     kind: Any = type(law)
-    items = ((name, getattr(law, name)) for name in _names(kind))
-    return tuple((name, len(value)) for name, value in items if isinstance(value, (tuple, list)))
+    return tuple((name, len(getattr(law, name))) for name in _series_names(kind))
 
 
 @lru_cache(maxsize=128)
