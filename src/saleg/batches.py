@@ -7,7 +7,6 @@ import os
 import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -19,11 +18,13 @@ from saleg.errors import SalegError
 from saleg.kernel.compose import kernel_for
 from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.performance import Performance
-from saleg.simulate import simulate
+from saleg.simulate import SettingsError, settings_of, simulate
 from saleg.status import Status
-from saleg.steady import steady_state
+from saleg.steady import check_tolerance, steady_state
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
     import pandas as pd
 
 #: Engines sent to a worker at a time, and chunks under way for each worker.
@@ -31,6 +32,9 @@ CHUNK = 32
 UNDER_WAY = 3
 #: Figures that need the whole history of a cycle; a batch leaves them out.
 NOT_IN_ROWS = ("adverse_work",)
+
+#: Columns there are only where multipliers were asked for.
+MULTIPLIER_COLUMNS = ("stable", "kind", "largest_multiplier", "beat_period")
 
 Row = dict[str, Any]
 
@@ -90,6 +94,7 @@ def steady_states(
     >>> list(table.status)
     ['steady', 'steady']
     """
+    check_tolerance(rtol)
     one = partial(_steady_row, rtol=rtol, multipliers=multipliers)
     return _table(one, engines, executor, workers, chunk)
 
@@ -120,6 +125,7 @@ def simulate_many(
     DataFrame
         One row per engine, in order: status, message and the figures of the last cycle.
     """
+    settings_of(duration, **settings)
     one = partial(_run_row, duration=duration, settings=settings)
     return _table(one, engines, executor, workers, chunk)
 
@@ -164,6 +170,9 @@ def _rows(one: Callable[[Engine], Row], engines: Sequence[Engine]) -> dict[str, 
             row = one(engine)
         except SalegError as error:
             row = {"status": str(Status.INVALID), "message": str(error)}
+        except Exception as error:  # a law of the user's, or no engine at all: one row, not all
+            what = f"{type(error).__name__}: {error}"
+            row = {"status": str(Status.INVALID), "message": what}
         for name in row:
             columns.setdefault(name, [_missing(columns, name)] * count)
         for name, values in columns.items():
@@ -179,17 +188,20 @@ def _missing(columns: Mapping[str, Sequence[Any]], name: str) -> Any:
 
 
 def _table(
-    one: Callable[[Engine], Row],
+    one: partial[Row],
     engines: Iterable[Engine],
     executor: Executor | None,
     workers: int | None,
     chunk: int,
 ) -> pd.DataFrame:
     """Send engines out in chunks and put their rows together in order."""
+    from concurrent.futures import ThreadPoolExecutor
+
     import pandas as pd
 
-    if chunk < 1:
-        raise ValueError(f"chunk = {chunk!r}: must be at least 1")
+    for name, value in (("chunk", chunk), ("workers", 1 if workers is None else workers)):
+        if not isinstance(value, (int, np.integer)) or not 1 <= value < 2**31:
+            raise SettingsError(f"{name} = {value!r}: must be a whole number >= 1")
     count = workers or os.cpu_count() or 1
     own = ThreadPoolExecutor(count) if executor is None else nullcontext(executor)
     parts: dict[str, list[np.ndarray]] = {}
@@ -204,8 +216,10 @@ def _table(
             length += rows
             if bar is not None:
                 bar.update(rows)
-    data = {name: np.concatenate(parts[name]) for name in UNITS if name in parts}
-    frame = pd.DataFrame(data, columns=None if data else ["status", "message"])
+    wanted = one.keywords.get("multipliers", False)
+    names = [name for name in UNITS if wanted or name not in MULTIPLIER_COLUMNS]
+    empty = [np.full(length, np.nan)]
+    frame = pd.DataFrame({name: np.concatenate(parts.get(name, empty)) for name in names})
     frame.attrs["units"] = {str(name): UNITS[str(name)] for name in frame}
     return frame
 
@@ -233,7 +247,7 @@ def _chunks(
         for engine in taken:
             try:
                 kernel = kernel_for(engine)
-            except (AttributeError, SalegError):
+            except Exception:
                 continue  # its row will say why
             if kernel not in known:
                 known.add(kernel)

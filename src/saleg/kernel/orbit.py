@@ -111,7 +111,7 @@ def read_vector(E, C, y, z):
         c.mass = exp(z[first + Z_LN_MASS])
         c.fuel = max(z[first + Z_FUEL], 0.0) * c.mass
         c.air = max(z[first + Z_AIR], 0.0) * c.mass
-        c.burnt = max(z[first + Z_BURNT], 0.0) * c.mass
+        c.burnt = z[first + Z_BURNT] * c.mass
         c.equivalence_ratio = z[first + Z_RATIO]
         if c.mode == OPEN:
             continue
