@@ -11,6 +11,7 @@ import pytest
 from saleg import laws
 from saleg.kernel.aid import Aid
 from saleg.kernel.compose import methods_text, record_of, values_of
+from saleg.kernel.powers import EXPONENTIAL
 from saleg.kernel.source import Borrowed, NoSource
 from saleg.laws import Charge, Gas, Motion, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law
@@ -146,6 +147,7 @@ EASED = [case for case in CASES if case.values[1] in BASES[case.values[0].slot].
 def test_eased_face_equals_python_face(law, method):
     """Merged powers and remembered factors change nothing but rounding."""
     names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
+    names[EXPONENTIAL] = math.exp
     text = "\n".join(methods_text(type(law), method, "one", BASES[law.slot], eases=True))
     exec(text, names)
     record = np.array([values_of(law)], record_of(law))[0]
@@ -361,3 +363,57 @@ def test_a_law_without_source_is_recognised():
     exec("def force(self, motion): return 0.0", names)
     with pytest.raises(NoSource):
         Borrowed("x", "x").add_method(laws.LinearSprings, names["force"], "x")
+
+
+@dataclasses.dataclass(frozen=True)
+class Branching(laws.NoHeatTransfer):
+    """Chained locals and a condition: not a straight line, so nothing may be eased."""
+
+    n: float = 0.8
+
+    def coefficient(self, gas, charge):
+        p = gas.p * 1e-5
+        h = 30.0 * p**self.n
+        if gas.burning > 0.0:
+            h *= 2.0
+        return h
+
+
+@dataclasses.dataclass(frozen=True)
+class Shadowing(laws.NoHeatTransfer):
+    """Local names that the kernel might want for itself."""
+
+    def coefficient(self, gas, charge):
+        _aid = gas.p * 1e-5
+        math = gas.T**-0.4
+        exp = gas.mean_piston_speed + 1.4
+        return 65.0 * gas.V**-0.06 * _aid**0.8 * math * exp**0.8
+
+
+@pytest.mark.parametrize("law", [Branching(), Shadowing()], ids=lambda law: type(law).__name__)
+def test_laws_of_any_shape_keep_their_value_when_eased(law):
+    names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
+    names[EXPONENTIAL] = math.exp
+    text = "\n".join(
+        methods_text(type(law), "coefficient", "one", BASES["heat_transfer"], eases=True)
+    )
+    exec(text, names)
+    record = np.array([values_of(law)], record_of(law))[0]
+    for gas in GASES:
+        constants = names["one_coefficient_constants"](record, gas, CHARGE)
+        aid = Aid(math.log(gas.p), math.log(gas.T), math.log(gas.V), *constants)
+        found = names["one_coefficient"](record, gas, CHARGE, aid)
+        assert found == pytest.approx(law.coefficient(gas, CHARGE), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("times", "fractions", "said"),
+    [
+        ((0.0, 0.5), (0.0, 0.8), "must end at 1"),
+        ((0.2, 1.0), (0.0, 1.0), "must begin at 0"),
+        ((0.0, 0.5, 1.0), (0.0, 0.8, 0.5), "no number may be less"),
+    ],
+)
+def test_a_burn_profile_covers_its_duration_and_never_falls(times, fractions, said):
+    found = problems(laws.BurnProfile(times=times, fractions=fractions))
+    assert said in str(found[0])

@@ -2,12 +2,15 @@
 
 import math
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 import saleg
 from saleg import Status, laws
+from saleg.laws import Motion
+from saleg.quantities import quantity
 from saleg.return_map import is_symmetric, repeats_itself
 
 FIGURES = ("stroke", "frequency", "power", "efficiency", "peak_pressure", "compression_ratio")
@@ -160,6 +163,9 @@ def test_what_cannot_be_followed_is_said(base):
         saleg.continuation.branch(base, "bore", -1.0)
     with pytest.raises(saleg.SalegError, match="cannot follow"):
         saleg.continuation.branch(base, "bore", math.nan)
+    for bad in ({"step": math.nan}, {"step": 0.0}, {"most": 0}):
+        with pytest.raises(saleg.SalegError, match="must be"):
+            saleg.continuation.branch(base, "bore", 0.07, **bad)
     with pytest.raises(saleg.SalegError, match="no steady state"):
         saleg.continuation.branch(base.replace(equivalence_ratio=0.0), "bore", 0.07)
 
@@ -228,7 +234,11 @@ def test_failures_are_rows(base):
     assert list(table.stable) == [True, False, False, True]
     assert np.isnan(table.power[1])
     assert table.power[2] == 0.0
-    assert len(saleg.steady_states([])) == 0
+    assert list(saleg.steady_states([]).power) == []
+    assert list(saleg.steady_states([None, 3]).status) == ["invalid", "invalid"]
+    for bad in ({"rtol": 5.0}, {"chunk": 2.5}, {"workers": 0}):
+        with pytest.raises(saleg.SalegError):
+            saleg.steady_states(engines, **bad)
 
 
 def test_runs_in_batches(base):
@@ -237,3 +247,75 @@ def test_runs_in_batches(base):
     assert list(table.status) == ["steady", "invalid", "steady"]
     alone = saleg.simulate(engines[2], 1.0, rtol=1e-7)
     assert table.power[2] == alone.performance.power
+
+
+@dataclass(frozen=True)
+class Ageing(laws.ViscousFriction):
+    """Friction that jumps at one second: no probe at a few instants would see it."""
+
+    def force(self, held: float, motion: Motion) -> float:
+        return held * motion.v * (3.0 if motion.t > 1.0 else 1.0)
+
+
+@dataclass(frozen=True)
+class OneSided(laws.LinearSprings):
+    """A soft stop on the right alone."""
+
+    stop: float = quantity("N/m", default=1e5)
+
+    def force(self, motion: Motion) -> float:
+        return -2.0 * self.stiffness * motion.x - self.stop * max(motion.x - 0.0845, 0.0)
+
+    def energy(self, motion: Motion) -> float:
+        beyond = max(motion.x - 0.0845, 0.0)
+        return self.stiffness * motion.x * motion.x + 0.5 * self.stop * beyond * beyond
+
+
+def test_a_law_of_time_is_recognised_by_its_source(base):
+    assert not repeats_itself(base.replace(friction=Ageing()))
+    assert repeats_itself(base)
+
+
+@pytest.mark.parametrize("stop", [1e4, 1e5])
+def test_a_law_that_tells_left_from_right_is_not_mirrored(base, stop):
+    engine = base.replace(springs=OneSided(stiffness=30e3, stop=stop))
+    found, run = saleg.steady_state(engine, rtol=1e-8), saleg.simulate(engine, 4.0, rtol=1e-8)
+    assert found.found, found.message
+    assert deviation(found.performance, run.performance) < 1e-5
+
+
+def test_a_bounce_chamber_is_stable_and_solved_as_it_is_waited_for(base):
+    engine = saleg.Engine(
+        translator=saleg.Translator(mass=2.4),
+        left=base.left,
+        right=saleg.BounceChamber(bore=0.064, half_stroke=0.100, pressure=2.5e5),
+        springs=laws.LinearSprings(stiffness=20e3),
+        alternator=laws.LinearLoad(load_constant=30.0),
+    )
+    found, run = saleg.steady_state(engine, rtol=1e-9), saleg.simulate(engine, 6.0, rtol=1e-9)
+    assert found.stable
+    assert abs(found.multipliers[0]) < 0.9
+    assert deviation(found.performance, run.performance) < 1e-6
+    with pytest.raises(saleg.SalegError, match="entropy"):
+        saleg.continuation.branch(engine, "moving_mass", 2.6)
+
+
+def test_the_orbit_of_a_steady_state_can_be_drawn(base):
+    ax = saleg.steady_state(base).orbit.plot.pressure_volume()
+    assert ax.lines
+
+
+def test_waiting_gives_the_same_figures_as_solving(base):
+    solved, waited = (
+        saleg.steady_state(base, rtol=1e-8),
+        saleg.steady_state(base, rtol=1e-8, most=0),
+    )
+    assert waited.method == "simulation"
+    for name, value in solved.quick_performance.to_dict().items():
+        if name not in ("stability", "cr_change", "adverse_work"):
+            assert getattr(waited.quick_performance, name) == pytest.approx(value, rel=1e-5), name
+
+
+def test_a_force_that_jumps_does_not_hide_a_steady_state(base):
+    found = saleg.steady_state(base.replace(springs=laws.PreloadedSprings(preload=500.0)))
+    assert found.found, found.message

@@ -7,7 +7,6 @@ import os
 import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -19,11 +18,13 @@ from saleg.errors import SalegError
 from saleg.kernel.compose import kernel_for
 from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.performance import Performance
-from saleg.simulate import simulate
+from saleg.simulate import SettingsError, settings_of, simulate
 from saleg.status import Status
-from saleg.steady import SteadyState, steady_state
+from saleg.steady import SteadyState, check_tolerance, steady_state
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
     import pandas as pd
 
 #: Engines sent to a worker at a time, and chunks under way for each worker.
@@ -31,6 +32,9 @@ CHUNK = 32
 UNDER_WAY = 3
 #: Figures that need the whole history of a cycle; a batch leaves them out.
 NOT_IN_ROWS = ("adverse_work",)
+
+#: Columns there are only where multipliers were asked for.
+MULTIPLIER_COLUMNS = ("stable", "kind", "largest_multiplier", "beat_period")
 
 T = TypeVar("T")
 Row = dict[str, Any]
@@ -92,6 +96,7 @@ def steady_states(
     >>> list(table.status)
     ['steady', 'steady']
     """
+    check_tolerance(rtol)
     one = partial(_steady_row, rtol=rtol, multipliers=multipliers)
     return _table(one, engines, executor, workers, chunk)
 
@@ -122,6 +127,7 @@ def simulate_many(
     DataFrame
         One row per engine, in order: status, message and the figures of the last cycle.
     """
+    settings_of(duration, **settings)
     one = partial(_run_row, duration=duration, settings=settings)
     return _table(one, engines, executor, workers, chunk)
 
@@ -170,8 +176,11 @@ def rows_of(one: Callable[[T], Row], items: Sequence[T]) -> Columns:
     for count, item in enumerate(items):
         try:
             row = one(item)
-        except (SalegError, ArithmeticError) as error:
+        except SalegError as error:
             row = {"status": str(Status.INVALID), "message": str(error)}
+        except Exception as error:  # a law of the user's, or no engine at all: one row, not all
+            what = f"{type(error).__name__}: {error}"
+            row = {"status": str(Status.INVALID), "message": what}
         for name in row:
             columns.setdefault(name, [missing(columns, name)] * count)
         for name, values in columns.items():
@@ -187,17 +196,20 @@ def missing(columns: Mapping[str, Sequence[Any]], name: str) -> Any:
 
 
 def _table(
-    one: Callable[[Engine], Row],
+    one: partial[Row],
     engines: Iterable[Engine],
     executor: Executor | None,
     workers: int | None,
     chunk: int,
 ) -> pd.DataFrame:
     """Send engines out in chunks and put their rows together in order."""
+    from concurrent.futures import ThreadPoolExecutor
+
     import pandas as pd
 
-    if chunk < 1:
-        raise ValueError(f"chunk = {chunk!r}: must be at least 1")
+    for name, value in (("chunk", chunk), ("workers", 1 if workers is None else workers)):
+        if not isinstance(value, (int, np.integer)) or not 1 <= value < 2**31:
+            raise SettingsError(f"{name} = {value!r}: must be a whole number >= 1")
     count = workers or os.cpu_count() or 1
     own = ThreadPoolExecutor(count) if executor is None else nullcontext(executor)
     parts: dict[str, list[np.ndarray]] = {}
@@ -212,8 +224,10 @@ def _table(
             length += rows
             if bar is not None:
                 bar.update(rows)
-    data = {name: np.concatenate(parts[name]) for name in UNITS if name in parts}
-    frame = pd.DataFrame(data, columns=None if data else ["status", "message"])
+    wanted = one.keywords.get("multipliers", False)
+    names = [name for name in UNITS if wanted or name not in MULTIPLIER_COLUMNS]
+    empty = [np.full(length, np.nan)]
+    frame = pd.DataFrame({name: np.concatenate(parts.get(name, empty)) for name in names})
     frame.attrs["units"] = {str(name): UNITS[str(name)] for name in frame}
     return frame
 
@@ -242,7 +256,7 @@ def _chunks(
         for engine in taken:
             try:
                 kernel = kernel_for(engine)
-            except (AttributeError, SalegError):
+            except Exception:
                 continue  # its row will say why
             if kernel not in known:
                 known.add(kernel)

@@ -18,10 +18,18 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
+from saleg.kernel.orbit import Z_CHAMBERS
 from saleg.paths import unit_of
 from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.prepare import State, prepare
-from saleg.return_map import NoReturn, ReturnMap, is_symmetric
+from saleg.quantities import is_number
+from saleg.return_map import (
+    NoReturn,
+    ReturnMap,
+    adiabatic_chambers,
+    is_symmetric,
+    repeats_itself,
+)
 from saleg.stability import FINE, Stability, judged
 from saleg.steady import SteadyState, result_of, steady_state
 
@@ -124,11 +132,18 @@ class Branch:
 
     @property
     def folds(self) -> list[float]:
-        """Values at which the branch turns back."""
-        values = [point.value for point in self.points]
+        """Values at which the branch turns back, by a parabola through the nearest points."""
+        values = np.array([point.value for point in self.points])
         ways = np.sign(np.diff(values))
         turns = np.flatnonzero(ways[1:] * ways[:-1] < 0.0) + 1
-        return [float(values[i]) for i in turns]
+        return [self._extremum(values, int(i)) for i in turns]
+
+    def _extremum(self, values: np.ndarray, i: int) -> float:
+        """Extreme value of the parabola through three points, over the way in the vector."""
+        a, b, c = (self.points[n].vector[:Z_CHAMBERS] for n in (i - 1, i, i + 1))
+        way = np.array([-np.linalg.norm(b - a), 0.0, np.linalg.norm(c - b)])
+        curve, slope, value = np.polyfit(way, values[i - 1 : i + 2], 2)
+        return float(value - slope * slope / (4.0 * curve))
 
     @property
     def stability_changes(self) -> list[tuple[float, str]]:
@@ -198,13 +213,24 @@ def branch(
     [(13.9, 'quasi-periodic')]
     """
     start = engine.get(path)
-    if not isinstance(start, (int, float)) or not math.isfinite(stop) or stop == start:
+    if not (is_number(start) and is_number(stop)) or not math.isfinite(stop) or stop == start:
         raise NoBranch(f"cannot follow '{path}' from {start!r} to {stop!r}")
+    if step is not None and not (is_number(step) and 0.0 < step < math.inf):
+        raise NoBranch(f"step = {step!r}: must be a number > 0")
+    if most < 2:
+        raise NoBranch(f"most = {most!r}: must be at least 2")
     engine.replace(**{path: stop}).validate()
+    if not repeats_itself(engine):
+        raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")
+    if adiabatic_chambers(engine):
+        raise NoBranch(
+            "a sealed chamber without heat transfer keeps the entropy it is given, so its orbit is "
+            "not a single one: give the bounce chamber a heat-transfer law"
+        )
     first = steady_state(engine, rtol=1e-9)
     if not first.found or first.replay is None:
         raise NoBranch(f"no steady state to begin with: {first.message}")
-    longest = abs(step) if step else abs(stop - start) / 40.0
+    longest = step if step is not None else abs(stop - start) / 40.0
     follower = _Follower(engine, path, float(start), float(stop), longest)
     points: list[Point] = []
     for point in follower.points(first):
@@ -347,9 +373,9 @@ class _Follower:
         s, z = u[-1], u[:-1]
         chart, state = self.chart(s, like)
         jacobian = chart.jacobian(state, z)
-        ds = 1e-5
-        by_parameter = self.residual(s + ds, z, like) - self.residual(s - ds, z, like)
-        top = np.column_stack([jacobian - np.eye(len(z)), by_parameter / (2.0 * ds)])
+        low, high = max(s - 1e-5, 0.0), min(s + 1e-5, 1.0)  # neither may leave the allowed range
+        by_parameter = self.residual(high, z, like) - self.residual(low, z, like)
+        top = np.column_stack([jacobian - np.eye(len(z)), by_parameter / (high - low)])
         return np.vstack([top, normal]), jacobian
 
     def point(self, s: float, z: np.ndarray, like: State, jacobian: np.ndarray) -> Point:
@@ -363,7 +389,7 @@ class _Follower:
         values = values[np.argsort(-np.abs(values))]
         period = float(steady.strokes["duration"].sum())
         stability = judged(values[np.abs(values) > 1e-6], self.mirrored, period)
-        return Point(self.start + s * self.way, state, z, stability, steady)
+        return Point(float(self.start + s * self.way), state, z, stability, steady)
 
 
 def follow(engine: Engine, path: str, stops: Sequence[float], **settings: Any) -> list[Branch]:

@@ -6,6 +6,7 @@ import dataclasses
 import itertools
 import math
 import reprlib
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 
@@ -56,6 +57,8 @@ def series(
     low: float = -math.inf,
     high: float = math.inf,
     rising: bool = False,
+    never_falling: bool = False,
+    ends: tuple[float, float] | None = None,
     at_least: int = 1,
     length: str = "",
 ) -> Any:
@@ -71,6 +74,10 @@ def series(
         Allowed range of every number.
     rising : bool
         Whether every number must be greater than the one before.
+    never_falling : bool
+        Whether none may be less than the one before.
+    ends : (float, float), optional
+        What the first and the last must be.
     at_least : int
         Fewest numbers.
     length : str
@@ -92,7 +99,7 @@ def series(
     'x = (0.0, 2.0, 1.0) [m]: every number must be greater than the one before'
     """
     limits = Limits(unit, float(low), float(high), False, False)
-    shape = Shape(rising, at_least, length)
+    shape = Shape(rising, never_falling, ends, at_least, length)
     return dataclasses.field(default=default, metadata={"limits": limits, "series": shape})
 
 
@@ -100,6 +107,8 @@ class Shape(NamedTuple):
     """How many numbers a series has, and in which order."""
 
     rising: bool
+    never_falling: bool
+    ends: tuple[float, float] | None
     at_least: int
     length: str
 
@@ -157,6 +166,11 @@ def is_number(value: Any) -> bool:
     return getattr(value, "ndim", 0) == 0
 
 
+@lru_cache(maxsize=1024)
+def _fields(kind: Any) -> tuple[dataclasses.Field[Any], ...]:
+    return dataclasses.fields(kind)
+
+
 def problems(node: Any, path: str = "") -> list[Problem]:
     """List every field of a dataclass tree that is not a number within its allowed range.
 
@@ -174,18 +188,21 @@ def problems(node: Any, path: str = "") -> list[Problem]:
         Empty when everything is well.
     """
     found: list[Problem] = []
-    for field in dataclasses.fields(node):
+    kind: Any = type(node)
+    for field in _fields(kind):
         value = getattr(node, field.name)
-        where = f"{path}.{field.name}" if path else field.name
         limits = field.metadata.get("limits")
+        if limits is not None and type(value) is float and limits.low < value < limits.high:
+            continue  # by far the most
+        where = f"{path}.{field.name}" if path else field.name
         if "series" in field.metadata:
             found.extend(_series_problems(node, field, where))
         elif limits is not None:
             if not is_number(value):
                 found.append(Problem(where, value, limits.unit, limits.wanted("a number")))
             elif not math.isfinite(value) or not limits.admits(float(value)):
-                kind = "" if math.isfinite(value) else "a finite number"
-                found.append(Problem(where, value, limits.unit, limits.wanted(kind)))
+                need = "" if math.isfinite(value) else "a finite number"
+                found.append(Problem(where, value, limits.unit, limits.wanted(need)))
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             found.extend(problems(value, where))
         elif hasattr(node, "compiled") and not is_number(value):  # a law's record holds numbers
@@ -209,6 +226,12 @@ def _series_problems(node: Any, field: dataclasses.Field[Any], where: str) -> li
         return wrong(f"must have at least {shape.at_least} numbers")
     if shape.rising and any(a >= b for a, b in itertools.pairwise(values)):
         return wrong("every number must be greater than the one before")
+    if shape.never_falling and any(a > b for a, b in itertools.pairwise(values)):
+        return wrong("no number may be less than the one before")
+    if shape.ends is not None and values[0] != shape.ends[0]:
+        return wrong(f"must begin at {shape.ends[0]:g}")
+    if shape.ends is not None and values[-1] != shape.ends[1]:
+        return wrong(f"must end at {shape.ends[1]:g}")
     if shape.length:
         others = [getattr(node, name) for name in shape.length.split("*")]
         if not all(isinstance(other, (tuple, list)) for other in others):

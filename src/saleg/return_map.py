@@ -4,15 +4,28 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
+from types import CodeType
 from typing import Any
 
 import numpy as np
 
-from saleg.engine import Engine
+from saleg.engine import BounceChamber, Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.compose import Kernel, kernel_for, needs_motored_pressure, parameters
-from saleg.kernel.orbit import CYCLE, FIND, IMAGE, Z_AMPERES, write_vector
-from saleg.laws import NoMisfires
+from saleg.kernel.orbit import (
+    CYCLE,
+    DEPTH,
+    FIND,
+    IMAGE,
+    Z_AMPERES,
+    Z_CHAMBERS,
+    Z_LN_MOTORED,
+    Z_LN_PRESSURE,
+    write_vector,
+)
+from saleg.kernel.source import fingerprint
+from saleg.laws import NoHeatTransfer, NoMisfires
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Alternator
 from saleg.prepare import State
@@ -22,7 +35,14 @@ from saleg.simulate import Settings, options_record, work_space
 LONGEST = 200.0
 #: Positions, velocities and currents, over their natural sizes, at which the laws of motion are
 #: compared with their mirror images.
-PROBES = ((0.31, 0.77, 0.6), (0.83, -0.41, -0.9), (0.05, 0.21, 0.2))
+PROBES = tuple(
+    (position, speed, 0.7 * speed)
+    for position, speed in zip(
+        (0.03, 0.11, 0.23, 0.31, 0.42, 0.53, 0.61, 0.72, 0.80, 0.86, 0.90, 0.94, 0.97, 0.99),
+        (0.97, -0.9, 0.85, -0.8, 0.7, -0.6, 0.5, -0.45, 0.4, -0.3, 0.25, -0.2, 0.1, -0.05),
+        strict=True,
+    )
+)
 #: Difference of a central difference, over the numbers of order one in a vector.
 DIFFERENCE = 1e-5
 
@@ -160,7 +180,8 @@ class ReturnMap:
     def _vectors(self) -> tuple[np.ndarray, ...]:
         """Room for points, residuals and images."""
         n = layout.N_VECTOR
-        return np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros((2, n))
+        old = np.zeros((2, DEPTH, n))
+        return np.zeros(n), np.zeros(n), np.zeros(n), old[0], old[1], np.zeros((DEPTH, DEPTH + 2))
 
     def reset(self, state: State) -> None:
         """Go to a copy of a state."""
@@ -198,9 +219,9 @@ class ReturnMap:
         nothing but their own two maps.
         """
         matrix = np.zeros((len(z), len(z)))
-        has_current = type(self.engine.alternator).current_rate is not Alternator.current_rate
+        kept = constant_entries(self.engine)
         for n in range(len(z)):
-            if n == Z_AMPERES and not has_current:
+            if n in kept:
                 continue
             ahead, behind = z.copy(), z.copy()
             ahead[n] += DIFFERENCE
@@ -218,15 +239,43 @@ class Fields:
             setattr(self, name, record[name].item())
 
 
+def constant_entries(engine: Engine) -> set[int]:
+    """Entries of the vector that nothing can change: a current that is not, a sealed charge."""
+    kept = set()
+    if type(engine.alternator).current_rate is Alternator.current_rate:
+        kept.add(Z_AMPERES)
+    for side, chamber in enumerate(engine.chambers):
+        first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
+        if isinstance(chamber, BounceChamber):
+            kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
+            kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED}
+        if not needs_motored_pressure(engine):
+            kept.add(first + Z_LN_MOTORED)
+    return kept
+
+
+def adiabatic_chambers(engine: Engine) -> int:
+    """Number of sealed chambers without heat transfer: each keeps its entropy for ever."""
+    return sum(
+        isinstance(chamber, BounceChamber) and isinstance(chamber.heat_transfer, NoHeatTransfer)
+        for chamber in engine.chambers
+    )
+
+
 def repeats_itself(engine: Engine) -> bool:
     """Whether nothing in an engine depends on the time or on the number of the charge."""
     for chamber in engine.chambers:
         if not isinstance(getattr(chamber, "misfires", NoMisfires()), NoMisfires):
             return False
-    return all(
-        _forces(engine, Motion(0.0, *probe)) == _forces(engine, Motion(0.137, *probe))
-        for probe in _probes(engine)
-    )
+    kinds: list[Any] = [type(law) for law in (engine.springs, engine.friction, engine.alternator)]
+    return not any(_asks_for_time(kind) for kind in kinds)
+
+
+@lru_cache(maxsize=256)
+def _asks_for_time(law: Any) -> bool:
+    """Whether a method of a law, or a function it uses, takes an attribute ``t`` of anything."""
+    codes = [part for part in fingerprint(law) if isinstance(part, CodeType)]
+    return any("t" in code.co_names for code in codes)
 
 
 def is_symmetric(engine: Engine) -> bool:

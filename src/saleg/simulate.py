@@ -110,23 +110,32 @@ def simulate(
     >>> round(run.performance.frequency, 1)
     47.0
     """
-    settings = _settings(
-        duration, method, order, step, rtol, history, motored_pressure, stall_stroke, keep_cycles
+    settings = settings_of(
+        duration,
+        method=method,
+        order=order,
+        step=step,
+        rtol=rtol,
+        history=history,
+        motored_pressure=motored_pressure,
+        stall_stroke=stall_stroke,
+        keep_cycles=keep_cycles,
     )
     engine.validate()
     return integrate(engine, prepare(engine), settings)
 
 
-def _settings(
+def settings_of(
     duration: float,
-    method: str,
-    order: int,
-    step: float | None,
-    rtol: float,
-    history: int | None,
-    motored_pressure: bool,
-    stall_stroke: float,
-    keep_cycles: int | None,
+    *,
+    method: str = "adaptive",
+    order: int = 4,
+    step: float | None = None,
+    rtol: float = DEFAULT_TOLERANCE,
+    history: int | None = None,
+    motored_pressure: bool = False,
+    stall_stroke: float = 0.01,
+    keep_cycles: int | None = None,
 ) -> Settings:
     """Check the arguments of :func:`simulate`; all that is wrong is named together."""
     wrong = []
@@ -292,7 +301,9 @@ class Replay:
             peaks=2,
             keep_cycles=None,
         )
-        return integrate(self.engine, state, asked)
+        run = integrate(self.engine, state, asked)
+        vars(run)["orbit"] = run  # it is the orbit of its own cycle
+        return run
 
 
 def _replay(engine: Engine, snapshot: tuple[np.ndarray, ...], settings: Settings) -> Replay | None:

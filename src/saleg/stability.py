@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saleg.prepare import State
-from saleg.return_map import ReturnMap, is_symmetric
+from saleg.return_map import ReturnMap, adiabatic_chambers, is_symmetric
 
 if TYPE_CHECKING:
     from saleg.steady import SteadyState
@@ -93,6 +93,9 @@ def map_multipliers(steady: SteadyState, mirrored: bool) -> np.ndarray:
     start = State(E.reshape(1).copy(), C.copy(), y.copy(), np.zeros(0))
     chart = ReturnMap.of(steady.engine, start.copy(), FINE, mirrored)
     values = np.linalg.eigvals(chart.jacobian(start, chart.vector(start)))
+    # What a sealed adiabatic chamber keeps for ever is no instability: a multiplier of one each.
+    for _ in range(adiabatic_chambers(steady.engine)):
+        values = np.delete(values, np.argmin(np.abs(np.abs(values) - 1.0)))
     values = values[np.abs(values) > LEAST]
     return values[np.argsort(-np.abs(values))]
 

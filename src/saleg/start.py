@@ -165,7 +165,7 @@ def contents(chamber: Any, displacement: float, burning: bool = False) -> Conten
     full = chamber.filling
     squeeze = full.clearance / height
     if not _burns_fuel(chamber):
-        pressure = full.pressure * squeeze ** chamber.gas_properties.gamma(full.temperature)
+        pressure = full.pressure * adiabatic_rise(chamber, squeeze)
         return Contents(False, False, False, pressure, charge_mass(chamber), 0.0, 0.0, 0.0)
     mass, fuel, air, burnt = standard_charge(chamber)
     is_open = _has_ports(chamber) and squeeze <= 1.0
@@ -173,6 +173,25 @@ def contents(chamber: Any, displacement: float, burning: bool = False) -> Conten
     pressure = full.pressure * (1.0 if is_open else squeeze**exponent)
     lit = burning and not is_open
     return Contents(is_open, lit, not is_open and not lit, pressure, mass, fuel, air, burnt)
+
+
+def adiabatic_rise(chamber: Any, squeeze: float) -> float:
+    """Pressure over that at the midpoint of a gas compressed adiabatically `squeeze` times.
+
+    ``d ln T / d ln V = 1 - gamma(T)`` by the classical Runge-Kutta method, so that the charge of a
+    sealed chamber does not depend on where a run begins.
+    """
+    gamma = chamber.gas_properties.gamma
+    filled = chamber.filling.temperature
+    ln_T, steps = math.log(filled), 64
+    h = math.log(squeeze) / steps
+    for _ in range(steps):
+        k1 = gamma(math.exp(ln_T)) - 1.0
+        k2 = gamma(math.exp(ln_T + 0.5 * h * k1)) - 1.0
+        k3 = gamma(math.exp(ln_T + 0.5 * h * k2)) - 1.0
+        k4 = gamma(math.exp(ln_T + h * k3)) - 1.0
+        ln_T += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    return float(squeeze * math.exp(ln_T) / filled)
 
 
 def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:

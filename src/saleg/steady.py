@@ -6,6 +6,7 @@ from one dead centre to the next alike: half a cycle later, in the mirror, for a
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -15,7 +16,7 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
-from saleg.kernel.compose import needs_motored_pressure
+from saleg.kernel.compose import check_laws, needs_motored_pressure
 from saleg.performance import EnergyBalance, Performance
 from saleg.prepare import prepare
 from saleg.quantities import is_number
@@ -33,7 +34,12 @@ MOST_MAPS = 60
 RESIDUAL = 1.0
 #: Residual of the verifying cycle beyond which a fixed point does not count, over the tolerance:
 #: an unstable one grows away from itself.
-MOST_MISSED = 1e3
+MOST_MISSED = 100.0
+#: The same beyond which a mirrored orbit is looked for again without the mirror.
+MIRROR_MISSED = 10.0
+#: Factor on the tolerance with which an engine that seems unsteady is tried once more.
+FINER = 1e-2
+FINEST = 1e-9
 #: Time simulated where no fixed point was found [s].
 FALLBACK_DURATION = 4.0
 
@@ -126,8 +132,11 @@ class SteadyState:
     def __str__(self) -> str:
         from saleg.report import describe_performance
 
-        return f"{self.engine.name}: {self.status} - {self.message}\n" + describe_performance(
-            self.performance
+        known = vars(self).get("stability")
+        stable = "stability not examined" if known is None else known.kind
+        head = f"{self.engine.name}: {self.status} ({stable}) - {self.message}"
+        return f"{head if self.found else head.replace(f' ({stable})', '')}\n" + (
+            describe_performance(self.performance)
         )
 
 
@@ -171,27 +180,46 @@ def steady_state(
     if not isinstance(most, (int, np.integer)) or most < 0:
         raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
     engine.validate()
+    check_laws(engine)
     if not repeats_itself(engine):
         return waited_for(engine, rtol, 0, 0, "a law depends on time or counts charges")
-    return _solved(engine, rtol, most)
+    found = _solved(engine, rtol, int(most))
+    if found.status is Status.UNSTEADY and rtol > FINEST:
+        # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
+        again = _solved(engine, max(FINER * rtol, FINEST), int(most))
+        return replace(
+            again,
+            half_cycles=again.half_cycles + found.half_cycles,
+            evaluations=again.evaluations + found.evaluations,
+        )
+    return found
 
 
 def check_tolerance(rtol: float) -> None:
-    """Raise SettingsError for a tolerance that makes no sense."""
+    """Refuse a tolerance with which nothing can be solved.
+
+    Raises
+    ------
+    SettingsError
+    """
     if not is_number(rtol) or not 1e-13 <= rtol <= 1e-3:
         raise SettingsError(f"rtol = {rtol!r}: must be a number from 1e-13 to 1e-3")
 
 
 def _solved(engine: Engine, rtol: float, most: int) -> SteadyState:
-    """Fixed point by iteration, from one start after the other; else Newton; else simulation."""
-    mirrored = is_symmetric(engine)
+    """Fixed point by iteration, from one start after the other; else simulation."""
+    symmetric = is_symmetric(engine)
     spent = evaluations = 0
-    for start in starts(engine):
+    for start, mirrored in itertools.product(starts(engine), (True, False)):
+        if mirrored and not symmetric:
+            continue
         state = prepare(replace(engine, start=start))
         chart = ReturnMap.of(engine, state, rtol, mirrored)
         code, found = chart.find(most, RESIDUAL * rtol)
         spent += int(found[0] * chart.strokes_per_map) + (2 if code == layout.END_OF_TIME else 0)
         evaluations += chart.evaluations
+        if mirrored and code == layout.END_OF_TIME and found[2] > MIRROR_MISSED * rtol:
+            continue  # unstable, or not as symmetric as it looks
         if converged(code, found, rtol):
             return result_of(chart, spent, evaluations, float(found[2]), "fixed point", rtol)
     return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
@@ -241,17 +269,17 @@ def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers."""
     heat = float(strokes["heat_released"].sum())
     if engine.fires and not heat > 0.0:
-        return Status.STALLED, "does not fire; it only swings:"
+        return Status.STALLED, "does not fire, it only swings:"
     if engine.fires and not float(strokes["electrical_energy"].sum()) > 1e-9 * heat:
         return Status.IDLING, "fires but delivers no power:"
-    return Status.STEADY, "steady:"
+    return Status.STEADY, "it is"
 
 
 def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
     run = simulate(engine, FALLBACK_DURATION, rtol=rtol)
     steady = run.status in (Status.STEADY, Status.IDLING)
-    strokes = run.last_cycle_strokes if steady else None
+    strokes = run.orbit.strokes if steady and run.orbit is not None else None
     unsettled = run.status is Status.COMPLETED
     return SteadyState(
         engine=engine,

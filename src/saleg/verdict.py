@@ -32,7 +32,7 @@ def verdict(
         side = "left" if x < 0.0 else "right"
         return Status.HEAD_CONTACT, (
             f"the piston reached the {side} head at t = {t:.6g} s (x = {x:.5g} mm); "
-            "try less fuel, a larger alternator.load_constant or more half_stroke"
+            "try less fuel, a larger load or more half_stroke"
         )
     if code == layout.STEP_FAILURE:
         return Status.STEP_FAILURE, (
@@ -70,7 +70,7 @@ def _imbalance(strokes: np.ndarray) -> float:
 
 
 _PER_CYCLE = "dead centres change by {:.1e} half strokes per cycle"
-_STALL_HINT = "try a smaller alternator.load_constant, more fuel, or another start"
+_STALL_HINT = "try a smaller load, more fuel, or another start"
 
 
 def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Status, str]:
@@ -85,7 +85,7 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     if engine.fires and not cycle["electrical_energy"].sum() > 1e-9 * cycle["heat_released"].sum():
         weight = float(cycle["load_weight"][-1])
         why = (
-            "the alternator gives none; try a larger alternator.load_constant or efficiency"
+            "the alternator gives none; try a larger load or efficiency"
             if weight > 0.0
             else "the load weight is 0; try more fuel or a smaller alternator.target_stroke"
         )

@@ -18,6 +18,7 @@ import types
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from functools import lru_cache
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,7 @@ import numpy as np
 from saleg.errors import LawError
 from saleg.kernel import jit
 from saleg.kernel.cache import locked, usable_folder, write_atomically
+from saleg.kernel.powers import EXPONENTIAL
 from saleg.kernel.source import Borrowed, NoSource, check_law, fingerprint
 from saleg.laws import CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
@@ -60,11 +62,14 @@ class Kernel:
         The composed module.
     lock : Path or None
         File that serialises compilation among processes.
+    laws : sequence of str
+        Names of the laws in it, for errors.
     """
 
-    def __init__(self, module: types.ModuleType, lock: Path | None):
+    def __init__(self, module: types.ModuleType, lock: Path | None, laws: Sequence[str] = ()):
         self.module = module
         self._lock = lock
+        self._laws = laws
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.module, name)
@@ -86,13 +91,22 @@ class Kernel:
         try:
             function.compile(signature)
         except NumbaError as error:
-            raise LawError(f"a law cannot be compiled: {error}") from error
+            raise LawError(
+                f"the laws {', '.join(self._laws)} cannot be compiled: {_reason(error)}"
+            ) from error
         except Exception:
             if self._lock is None:
                 raise
             for damaged in self._lock.parent.glob(f"__pycache__/{self._lock.stem}*"):
                 damaged.unlink(missing_ok=True)
             function.compile(signature)
+
+
+def _reason(error: Exception) -> str:
+    """What numba says of the cause, without the chain of what it was doing."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    telling = [line for line in lines if not line.startswith(("Failed in", "During", "File", "<"))]
+    return " ".join(telling[:2]) if telling else str(error)
 
 
 def slots_of(chamber: Chamber) -> dict[str, Law]:
@@ -148,12 +162,14 @@ def _is_ours(law: type[Law]) -> bool:
 def parameters(engine: Engine) -> np.ndarray:
     """All numbers of an engine's laws as an array of one record."""
     laws = [law for place in laws_of(engine).values() for law in place.values()]
-    flat = [
-        number
-        for law in laws
-        for value in values_of(law)
-        for number in (value if isinstance(value, (tuple, list)) else (value,))
-    ]
+    flat: list[float] = []
+    for law in laws:
+        kind: Any = type(law)
+        if _series_names(kind):
+            for value in values_of(law):
+                flat.extend(value if isinstance(value, (tuple, list)) else (value,))
+        else:
+            flat.extend(values_of(law))
     record = _record_of_all(tuple(type(law) for law in laws), tuple(map(_lengths, laws)))
     return np.array(flat, np.float64).view(record)
 
@@ -171,6 +187,21 @@ def _record_of_all(classes: tuple[Any, ...], lengths: tuple[Lengths, ...]) -> np
 @lru_cache(maxsize=256)
 def _names(law: Any) -> tuple[str, ...]:
     return tuple(item.name for item in dataclasses.fields(law))
+
+
+@lru_cache(maxsize=256)
+def _series_names(law: Any) -> tuple[str, ...]:
+    """Fields of a law class that hold a series of numbers."""
+    return tuple(item.name for item in dataclasses.fields(law) if "series" in item.metadata)
+
+
+@lru_cache(maxsize=256)
+def _reader(law: Any) -> Callable[[Law], Any]:
+    """What takes all numbers of a law of some class at once."""
+    names = _names(law)
+    return (
+        attrgetter(*names) if len(names) > 1 else lambda one: tuple(getattr(one, n) for n in names)
+    )
 
 
 def record_of(law: Law) -> np.dtype:
@@ -192,14 +223,13 @@ def _record(law: Any, lengths: Lengths) -> np.dtype:
 def values_of(law: Law) -> tuple[Any, ...]:
     """Numbers of a law in the order of its record."""
     kind: Any = type(law)
-    return tuple(getattr(law, name) for name in _names(kind)) or (0.0,)
+    return _reader(kind)(law) or (0.0,)
 
 
 def _lengths(law: Law) -> Lengths:
     """How many numbers there are in each series of a law."""
     kind: Any = type(law)
-    items = ((name, getattr(law, name)) for name in _names(kind))
-    return tuple((name, len(value)) for name, value in items if isinstance(value, (tuple, list)))
+    return tuple((name, len(getattr(law, name))) for name in _series_names(kind))
 
 
 @lru_cache(maxsize=128)
@@ -212,18 +242,19 @@ def _load(
     """Compose, keep and import the kernel for a choice of law classes in a certain state."""
     n = len(CHAMBER_SLOTS)
     left, right, engine = classes[:n], classes[n : 2 * n], classes[2 * n :]
+    own = [law.__name__ for law in dict.fromkeys(classes) if not _is_ours(law)]
     try:
         text = compose(left, right, engine, modules)
     except NoSource:
-        return _load_from_memory(left, right, engine, modules)
+        return _load_from_memory(left, right, engine, modules, own)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     folder = usable_folder()
     if folder is None:
-        return Kernel(_execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None)
+        return Kernel(_execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None, own)
     path = folder / f"saleg_kernel_{_digest(text)}.py"
     if not path.is_file() or path.read_bytes() != text.encode():
         write_atomically(path, text)
-    return Kernel(_execute(text, str(path)), path.with_suffix(".lock"))
+    return Kernel(_execute(text, str(path)), path.with_suffix(".lock"), own)
 
 
 def compose(
@@ -235,6 +266,7 @@ def compose(
 ) -> str:
     """Text of the composed module for the law classes of each place, in the order of the slots."""
     parts = ["import math", "import numba", "import numpy as np", ""]
+    parts += [f"from math import exp as {EXPONENTIAL}"]
     parts += [jit.COMPILED_HEADER + jit.CACHED_ON_DISK]
     parts += [_own_text(name) for name in BEFORE_SLOTS]
     eases = "rhs" in modules
@@ -389,11 +421,12 @@ def _load_from_memory(
     right: Sequence[type[Law]],
     engine: Sequence[type[Law]],
     modules: Sequence[str],
+    own: Sequence[str],
 ) -> Kernel:
     """Kernel for laws whose source cannot be had: compiled from their bytecode, not kept."""
     injected: dict[str, Any] = {}
     text = _in_memory(compose(left, right, engine, modules, injected))
-    return Kernel(_execute(text, f"<saleg kernel {next(_numbers)}>", injected), None)
+    return Kernel(_execute(text, f"<saleg kernel {next(_numbers)}>", injected), None, own)
 
 
 def _jitted(function: Callable[..., Any], seen: dict[int, Any] | None = None) -> Any:

@@ -162,7 +162,7 @@ def first_event(E, C, stages, h, y, y_new, k, landed):
 @inline
 def nearness(O):
     """Part of a step over which a state may be carried to its event without another step."""
-    return min(sqrt(O.tolerance), 5e-3) if O.adaptive == 1 else 1e-8
+    return min(3.0 * sqrt(O.tolerance), 0.05) if O.adaptive == 1 else 1e-8
 
 
 @compiled

@@ -30,10 +30,11 @@ from saleg.kernel.layout import (
     STEP_FAILURE,
     TOO_MANY_STEPS,
     V,
+    X,
 )
 from saleg.kernel.observe import observe
 from saleg.kernel.peaks import watch_point, watch_step
-from saleg.kernel.rhs import refresh, rhs
+from saleg.kernel.rhs import height_of, refresh, rhs
 from saleg.kernel.step import error_norm, take_step
 from saleg.kernel.switch import switch
 
@@ -52,16 +53,27 @@ def proposed_end(E, O, t_event):
     return wish
 
 
+@inline
+def compression(C, y, y_new):
+    """Clearance on the side that is compressed at the end of a step over that at its begin."""
+    side = 0 if y_new[V] < 0.0 else 1
+    return min(height_of(C, side, y_new[X]) / height_of(C, side, y[X]), 1.0)
+
+
 @compiled
-def control_step(E, order, h, error, was_rejected):
-    """Set the next step from the error of an accepted one (PI control, Hairer and Wanner)."""
+def control_step(E, C, order, h, error, was_rejected, y, y_new):
+    """Set the next step from the error of an accepted one (PI control, Hairer and Wanner).
+
+    On the way to a head all happens the faster the nearer it is: the step shrinks with the
+    clearance before an error says so.
+    """
     beta = 0.08
     exponent = 1.0 / order - 0.75 * beta
     ln_error = log(max(error, 1e-10))
     factor = 0.9 * exp(beta * E.ln_last_error - exponent * ln_error)
     factor = min(max(factor, 0.2), 1.0 if was_rejected else 6.0)
     E.ln_last_error = max(ln_error, LEAST_LN_ERROR)
-    E.next_step = h * factor
+    E.next_step = h * factor * compression(C, y, y_new)
 
 
 @compiled
@@ -98,7 +110,7 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
         error = error_norm(E, tableau, h, y, y_new, k, O.tolerance)
         if error <= 1.0:
             wish = E.next_step
-            control_step(E, order, h, error, rejected)
+            control_step(E, C, order, h, error, rejected, y, y_new)
             if not rejected and h < wish:  # cut short by a known event: keep the wish at least
                 E.next_step = max(E.next_step, wish)
             return h, t + h if rejected else end, -1 if rejected else aim

@@ -33,6 +33,9 @@ FIND = 0
 CYCLE = 1
 IMAGE = 2
 
+# Points an extrapolation looks back on, and the pivot, over its own square, that ends that.
+DEPTH = 4
+SINGULAR = 1e-10
 # Half cycles of plain iteration before extrapolation begins, and how far it may go at once.
 WARM_UP = 2
 FARTHEST = 0.5
@@ -112,7 +115,7 @@ def read_vector(E, C, y, z):
         c.mass = exp(z[first + Z_LN_MASS])
         c.fuel = max(z[first + Z_FUEL], 0.0) * c.mass
         c.air = max(z[first + Z_AIR], 0.0) * c.mass
-        c.burnt = max(z[first + Z_BURNT], 0.0) * c.mass
+        c.burnt = z[first + Z_BURNT] * c.mass
         c.equivalence_ratio = z[first + Z_RATIO]
         if c.mode == OPEN:
             continue
@@ -188,43 +191,73 @@ def next_return(run, strokes_per_map, mirrored):
 
 
 @compiled
-def extrapolate(z, f, z_old, f_old, depth, target):
+def solve(gram, size):
+    """Solve a small symmetric system in place by elimination; false if it is nearly singular.
+
+    Row i of `gram` is the i-th equation, its right-hand side in column `size`; on return that
+    column holds the solution.
+    """
+    for i in range(size):
+        if not gram[i, i] > SINGULAR * gram[i, size + 1]:
+            return False
+        for j in range(i + 1, size):
+            factor = gram[j, i] / gram[i, i]
+            for m in range(i, size + 1):
+                gram[j, m] -= factor * gram[i, m]
+    for i in range(size - 1, -1, -1):
+        for m in range(i + 1, size):
+            gram[i, size] -= gram[i, m] * gram[m, size]
+        gram[i, size] /= gram[i, i]
+    return True
+
+
+@compiled
+def mix(z, f, z_old, f_old, depth, gram):
+    """Weights of the latest images whose residuals cancel best; false if they are undefined."""
+    for i in range(depth):
+        for j in range(i, depth):
+            product = 0.0
+            for n in range(N_VECTOR):
+                product += (f[n] - f_old[i, n]) * (f[n] - f_old[j, n])
+            gram[i, j] = product
+            gram[j, i] = product
+        gram[i, depth + 1] = gram[i, i]  # against which its pivot is judged
+        right = 0.0
+        for n in range(N_VECTOR):
+            right += (f[n] - f_old[i, n]) * f[n]
+        gram[i, depth] = right
+    return solve(gram, depth)
+
+
+@compiled
+def extrapolate(z, f, z_old, f_old, known, target, gram):
     """Anderson's step: the mixture of the latest images whose residuals cancel best.
 
     `z` and `f` are the present point and residual, the rows of `z_old` and `f_old` those before,
     the latest first. Writes the next point into `target`; returns whether it is near enough to
     trust.
     """
-    a11, a12, a22, b1, b2 = 0.0, 0.0, 0.0, 0.0, 0.0
-    for n in range(N_VECTOR):
-        d1 = f[n] - f_old[0, n]
-        d2 = f[n] - f_old[1, n] if depth > 1 else 0.0
-        a11 += d1 * d1
-        a12 += d1 * d2
-        a22 += d2 * d2
-        b1 += d1 * f[n]
-        b2 += d2 * f[n]
-    determinant = a11 * a22 - a12 * a12
-    w1, w2 = b1 / a11 if a11 > 0.0 else 0.0, 0.0
-    if determinant > 1e-10 * a11 * a22:
-        w1 = (b1 * a22 - b2 * a12) / determinant
-        w2 = (b2 * a11 - b1 * a12) / determinant
+    depth = known
+    while depth > 0 and not mix(z, f, z_old, f_old, depth, gram):
+        depth -= 1
     farthest = 0.0
     for n in range(N_VECTOR):
         image = z[n] + f[n]
-        step = w1 * (image - z_old[0, n] - f_old[0, n])
-        if depth > 1:
-            step += w2 * (image - z_old[1, n] - f_old[1, n])
+        step = 0.0
+        for i in range(depth):
+            step += gram[i, depth] * (image - z_old[i, n] - f_old[i, n])
         target[n] = image - step
         farthest = max(farthest, abs(step))
-    return farthest <= FARTHEST
+    return depth > 0 and farthest <= FARTHEST
 
 
 @compiled
 def push(z, f, z_old, f_old):
     """Remember a point and its residual as the latest."""
+    for i in range(DEPTH - 1, 0, -1):
+        for n in range(N_VECTOR):
+            z_old[i, n], f_old[i, n] = z_old[i - 1, n], f_old[i - 1, n]
     for n in range(N_VECTOR):
-        z_old[1, n], f_old[1, n] = z_old[0, n], f_old[0, n]
         z_old[0, n], f_old[0, n] = z[n], f[n]
 
 
@@ -272,7 +305,7 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
     cycle. `found` is (maps taken, residual of the map, residual of the cycle). Returns the code of
     the integrator, or that nothing was found in `most` maps.
     """
-    z, f, image, z_old, f_old = vectors
+    z, f, image, z_old, f_old, gram = vectors
     E1, C, y = run[1], run[2], run[3]
     E = E1[0]
     write_vector(E, C, y, z)
@@ -294,7 +327,7 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
         for n in range(N_VECTOR):
             f[n] = image[n] - z[n]
         trusted = known > 0 and count >= WARM_UP
-        trusted = trusted and extrapolate(z, f, z_old, f_old, min(known, 2), image)
+        trusted = trusted and extrapolate(z, f, z_old, f_old, min(known, DEPTH), image, gram)
         if alike:
             push(z, f, z_old, f_old)
             known += 1

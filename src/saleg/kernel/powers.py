@@ -19,9 +19,13 @@ from collections.abc import Mapping
 
 from saleg.kernel.aid import Aid
 
-#: Name of the additional argument, and of the constants in it.
-AID = "_aid"
+#: Name of the additional argument, of the constants in it, and of the exponential function: names
+#: no law has of its own.
+AID = "_aid_of_the_kernel"
+EXPONENTIAL = "_exp_of_the_kernel"
 CONSTANTS = Aid._fields[3:]
+#: What makes names of its own inside an expression.
+OWN_NAMES = (ast.Lambda, ast.NamedExpr, ast.ListComp, ast.GeneratorExp, ast.SetComp, ast.DictComp)
 #: Attributes of a gas with a known logarithm, and those that stay the same between two events.
 LOGARITHMS = {"p": "ln_p", "T": "ln_T", "V": "ln_V"}
 STEADY_GAS = ("bore", "mean_piston_speed", "wall_temperature")
@@ -57,7 +61,9 @@ def eased(
     steady = [
         statement
         for statement in constants.body
-        if isinstance(statement, ast.Assign) and easer.is_steady(statement.value)
+        if easer.constants
+        and isinstance(statement, ast.Assign)
+        and easer.is_steady(statement.value)
     ]
     found = [*easer.constants, *(ast.Constant(0.0) for _ in CONSTANTS)][: len(CONSTANTS)]
     constants.body = [*steady, ast.Return(ast.Tuple(found, ast.Load()))]
@@ -68,6 +74,8 @@ def _single_assignments(tree: ast.FunctionDef) -> dict[str, ast.expr] | None:
     """Local names with what they stand for; None if the method is not a straight line."""
     found: dict[str, ast.expr] = {}
     arguments = {argument.arg for argument in tree.args.args}
+    if any(isinstance(node, OWN_NAMES) for node in ast.walk(tree)):
+        return None
     for statement in tree.body:
         if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant):
             continue
@@ -112,9 +120,7 @@ class _Easer(ast.NodeTransformer):
         else:
             rest = [*steady, *rest]
         if logarithm is not None:
-            power = ast.parse("math.exp()", mode="eval").body
-            assert isinstance(power, ast.Call)
-            power.args = [logarithm]
+            power = ast.Call(ast.Name(EXPONENTIAL, ast.Load()), [logarithm], [])
             product = power if product is None else ast.BinOp(product, ast.Mult(), power)
         for factor, inverse in rest:
             if not isinstance(factor, ast.BinOp) or factor is not node:

@@ -64,6 +64,9 @@ from saleg.kernel.slots import (
 )
 from saleg.laws.arguments import Motion, Stroke
 
+# Longest first step of a combustion, over its duration.
+FIRST_OF_BURN = 0.1
+
 
 @compiled
 def record_event(E, C, O, y, kind, side, events, filled):
@@ -110,6 +113,8 @@ def ignite(P, E, C, side, y, motored):
     c.armed = DISARMED
     c.t_ignition = E.t
     c.t_end = E.t + c.duration
+    if c.duration > 0.0:
+        E.next_step = min(E.next_step, FIRST_OF_BURN * c.duration)
     c.fuel_to_burn = c.combustion_efficiency * min(c.fuel, c.air / c.air_fuel_ratio)
     c.ignition_time = E.t
     c.ignition_height = gas.height

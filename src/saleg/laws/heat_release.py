@@ -156,10 +156,14 @@ class BurnProfile(BurnDuration):
     """
 
     times: tuple[float, ...] = series(
-        "-", default=(0.0, 0.25, 0.5, 0.75, 1.0), low=0, high=1, rising=True, at_least=2
+        "-",
+        default=(0.0, 0.25, 0.5, 0.75, 1.0),
+        rising=True,
+        ends=(0.0, 1.0),
+        at_least=2,
     )
     fractions: tuple[float, ...] = series(
-        "-", default=(0.0, 0.1, 0.5, 0.9, 1.0), low=0, high=1, length="times"
+        "-", default=(0.0, 0.1, 0.5, 0.9, 1.0), low=0, high=1, never_falling=True, length="times"
     )
 
     def burn_rate(self, u: float) -> float:

@@ -135,8 +135,8 @@ class Annand(HeatTransfer):
     a : float
         Factor of the convective part [-].
     c : float
-        Emissivity-like factor of the radiative part, while the charge burns and after [-]; 0.576 in
-        Annand's diesel engines, 0.075 for spark ignition.
+        Emissivity-like factor of the radiative part [-]; 0.576 in Annand's diesel engines, 0.075
+        for spark ignition. It acts all the time, though it matters only once the gas is hot.
     """
 
     scale: float = quantity("-", default=1.0, low=0)
