@@ -301,9 +301,7 @@ class Replay:
             peaks=2,
             keep_cycles=None,
         )
-        run = integrate(self.engine, state, asked)
-        vars(run)["orbit"] = run  # it is the orbit of its own cycle
-        return run
+        return integrate(self.engine, state, asked)
 
 
 def _replay(engine: Engine, snapshot: tuple[np.ndarray, ...], settings: Settings) -> Replay | None:

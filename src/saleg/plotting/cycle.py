@@ -112,6 +112,12 @@ def titled(run: Run, title: str) -> str:
     return title if run.status.ended_well else f"{title} (the run ended: {run.status})"
 
 
+def is_orbit(run: Run) -> bool:
+    """Whether a run is itself the record of one cycle, as that of a steady state is."""
+    whole = len(run.strokes) == 2 and run.strokes["direction"][0] > 0.0
+    return whole and run.replay is None and run.history_rows is not None
+
+
 def last_cycle(run: Run) -> Cycle:
     """The last full cycle of a run.
 
@@ -120,7 +126,7 @@ def last_cycle(run: Run) -> Cycle:
     NoCycle
         If there is none.
     """
-    orbit = run.orbit
+    orbit = run if is_orbit(run) else run.orbit
     if orbit is None or orbit.history is None or len(orbit.strokes) < 2:
         raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
     return Cycle(run, orbit.strokes, orbit.history, orbit.events)
