@@ -17,7 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import saleg
-from saleg import export
+from saleg import export, performance
 from saleg.cli import main
 from saleg.export import csv_folder, description, matlab, units
 from saleg.export.place import new_file
@@ -155,7 +155,7 @@ def test_nothing_of_a_run_is_forgotten():
     assert {item.name for item in dataclasses.fields(saleg.Run)} == written | {"replay"}
     assert set(units.STROKE_UNITS) == set(layout.STROKE_RECORD.names)
     figures = {item.name for item in dataclasses.fields(saleg.Performance)}
-    assert figures == set(units.PERFORMANCE_UNITS)
+    assert figures == set(performance.UNITS)
 
 
 # Laws of the user.
@@ -249,7 +249,7 @@ def test_mat_is_structs_of_columns(short_run, tmp_path):
 
 
 def test_names_of_saleg_are_legal_in_matlab():
-    for table in [units.PERFORMANCE_UNITS, *(held.places for held in units.LAYOUTS.values())]:
+    for table in [performance.UNITS, *(held.places for held in units.LAYOUTS.values())]:
         assert matlab.legal_names(table) == {name: name for name in table}
 
 

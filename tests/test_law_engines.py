@@ -205,5 +205,9 @@ def test_bad_series_are_named():
 def test_a_circuit_at_no_load_is_open():
     """A load weight of zero leaves the current near zero and the integration cheap."""
     engine = BASE.replace(alternator=laws.CircuitAlternator(target_stroke=1.0, regulator_gain=50.0))
-    run = saleg.simulate(engine, 0.3, rtol=1e-6)
+    run = saleg.simulate(engine, 0.3, rtol=1e-6, history=1)
     assert run.status is not Status.STEP_FAILURE
+    open_circuit = run.history[run.history.load_weight == 0.0]
+    assert len(open_circuit) > 1000
+    loaded = saleg.simulate(BASE.replace(alternator=laws.CircuitAlternator()), 0.3, history=1)
+    assert np.abs(open_circuit.current).max() < 0.05 * np.abs(loaded.history.current).max()

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import itertools
-import os
 import sys
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import nullcontext
 from functools import partial
@@ -23,31 +21,29 @@ from saleg.status import Status
 from saleg.steady import SteadyState, check_tolerance, steady_state
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor, Future
+    from concurrent.futures import Executor
 
     import pandas as pd
 
-#: Engines sent to a worker at a time, and chunks under way for each worker.
+#: Engines sent to a worker at a time.
 CHUNK = 32
-UNDER_WAY = 3
 #: Figures that need the whole history of a cycle; a batch leaves them out.
 NOT_IN_ROWS = ("adverse_work",)
-
-#: Columns there are only where multipliers were asked for.
-MULTIPLIER_COLUMNS = ("stable", "kind", "largest_multiplier", "beat_period")
 
 T = TypeVar("T")
 Row = dict[str, Any]
 Columns = dict[str, list[Any]]
 
-UNITS = {
+#: Columns of a table of runs with units, what a steady state adds, and what its multipliers add.
+RUN_UNITS = {
     "status": "-",
     "message": "-",
     **{name: unit for name, unit in PERFORMANCE_UNITS.items() if name not in NOT_IN_ROWS},
-    "method": "-",
-    "half_cycles": "-",
     "evaluations": "-",
-    "residual": "-",
+}
+STEADY_UNITS = {**RUN_UNITS, "method": "-", "half_cycles": "-", "residual": "-"}
+UNITS = {
+    **STEADY_UNITS,
     "stable": "-",
     "kind": "-",
     "largest_multiplier": "-",
@@ -98,7 +94,8 @@ def steady_states(
     """
     check_tolerance(rtol)
     one = partial(_steady_row, rtol=rtol, multipliers=multipliers)
-    return _table(one, engines, executor, workers, chunk)
+    units = UNITS if multipliers else STEADY_UNITS
+    return _table(one, engines, units, executor, workers, chunk)
 
 
 def simulate_many(
@@ -129,7 +126,7 @@ def simulate_many(
     """
     settings_of(duration, **settings)
     one = partial(_run_row, duration=duration, settings=settings)
-    return _table(one, engines, executor, workers, chunk)
+    return _table(one, engines, RUN_UNITS, executor, workers, chunk)
 
 
 def _steady_row(engine: Engine, rtol: float, multipliers: bool) -> Row:
@@ -182,13 +179,13 @@ def rows_of(one: Callable[[T], Row], items: Sequence[T]) -> Columns:
             what = f"{type(error).__name__}: {error}"
             row = {"status": str(Status.INVALID), "message": what}
         for name in row:
-            columns.setdefault(name, [missing(columns, name)] * count)
+            columns.setdefault(name, [missing(name)] * count)
         for name, values in columns.items():
-            values.append(row.get(name, missing(columns, name)))
+            values.append(row.get(name, missing(name)))
     return columns
 
 
-def missing(columns: Mapping[str, Sequence[Any]], name: str) -> Any:
+def missing(name: str) -> Any:
     """What stands in a column where a row has no entry."""
     if name in ("method", "kind"):
         return ""
@@ -196,44 +193,40 @@ def missing(columns: Mapping[str, Sequence[Any]], name: str) -> Any:
 
 
 def _table(
-    one: partial[Row],
+    one: Callable[[Engine], Row],
     engines: Iterable[Engine],
+    units: Mapping[str, str],
     executor: Executor | None,
     workers: int | None,
     chunk: int,
 ) -> pd.DataFrame:
     """Send engines out in chunks and put their rows together in order."""
-    from concurrent.futures import ThreadPoolExecutor
-
     import pandas as pd
+
+    from saleg.workers import completed
 
     for name, value in (("chunk", chunk), ("workers", 1 if workers is None else workers)):
         if not isinstance(value, (int, np.integer)) or not 1 <= value < 2**31:
             raise SettingsError(f"{name} = {value!r}: must be a whole number >= 1")
-    count = workers or os.cpu_count() or 1
-    own = ThreadPoolExecutor(count) if executor is None else nullcontext(executor)
-    parts: dict[str, list[np.ndarray]] = {}
-    length = 0
-    with own as pool, progress_bar(engines) as bar:
-        for columns in _in_order(pool, partial(rows_of, one), _chunks(one, engines, chunk), count):
-            rows = len(columns["status"])
-            for name in {**columns, **parts}:
-                earlier = parts.setdefault(name, _filled(name, length))
-                values = columns.get(name, [missing(columns, name)] * rows)
-                earlier.append(np.asarray(values, dtype=kind_of(name)))
-            length += rows
+    parts: dict[int, dict[str, np.ndarray]] = {}
+    chunks = enumerate(_chunks(one, engines, chunk))
+    with progress_bar(engines) as bar:
+        for number, columns in completed(partial(rows_of, one), chunks, executor, workers):
+            parts[number] = {name: _column(columns, name) for name in units}
             if bar is not None:
-                bar.update(rows)
-    wanted = one.keywords.get("multipliers", False)
-    names = [name for name in UNITS if wanted or name not in MULTIPLIER_COLUMNS]
-    empty = [np.full(length, np.nan)]
-    frame = pd.DataFrame({name: np.concatenate(parts.get(name, empty)) for name in names})
-    frame.attrs["units"] = {str(name): UNITS[str(name)] for name in frame}
+                bar.update(len(columns["status"]))
+    ordered = [parts[number] for number in sorted(parts)] or [
+        {name: np.zeros(0, kind_of(name)) for name in units}
+    ]
+    frame = pd.DataFrame({name: np.concatenate([part[name] for part in ordered]) for name in units})
+    frame.attrs["units"] = dict(units)
     return frame
 
 
-def _filled(name: str, length: int) -> list[np.ndarray]:
-    return [np.full(length, missing({}, name), dtype=kind_of(name))] if length else []
+def _column(columns: Columns, name: str) -> np.ndarray:
+    """One column of a chunk, filled up where no row has an entry."""
+    values = columns.get(name, [missing(name)] * len(columns["status"]))
+    return np.asarray(values, dtype=kind_of(name))
 
 
 def kind_of(name: str) -> type:
@@ -262,26 +255,6 @@ def _chunks(
                 known.add(kernel)
                 rows_of(one, [engine])
         yield taken
-
-
-def _in_order(
-    pool: Executor,
-    work: Callable[[Sequence[Engine]], Columns],
-    chunks: Iterator[list[Engine]],
-    workers: int,
-) -> Iterator[Columns]:
-    """Results in the order of the chunks, with no more under way than keeps the workers busy."""
-    waiting: deque[Future[Columns]] = deque()
-    try:
-        for taken in chunks:
-            waiting.append(pool.submit(work, taken))
-            if len(waiting) >= UNDER_WAY * workers:
-                yield waiting.popleft().result()
-        while waiting:
-            yield waiting.popleft().result()
-    finally:
-        for future in waiting:
-            future.cancel()
 
 
 def progress_bar(engines: Iterable[Any]) -> Any:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -390,8 +390,3 @@ class _Follower:
         period = float(steady.strokes["duration"].sum())
         stability = judged(values[np.abs(values) > 1e-6], self.mirrored, period)
         return Point(float(self.start + s * self.way), state, z, stability, steady)
-
-
-def follow(engine: Engine, path: str, stops: Sequence[float], **settings: Any) -> list[Branch]:
-    """Branches from an engine towards several values, such as up and down."""
-    return [branch(engine, path, stop, **settings) for stop in stops]

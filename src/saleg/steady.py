@@ -63,7 +63,7 @@ class SteadyState:
         How far the verifying cycle misses its start, in the numbers of order one a state is
         written in [-]; NaN without a fixed point.
     method : str
-        "fixed point", "Newton" or "simulation".
+        "fixed point", "continuation" (a point of a branch) or "simulation".
     strokes : ndarray of STROKE_RECORD
         The two strokes of the cycle; empty without one.
     """
@@ -146,8 +146,9 @@ def steady_state(
     """Steady state of an engine: the fixed point of its return map.
 
     Iterates the map from a compressed charge near the target stroke, extrapolates (Anderson's
-    method, depth two), verifies with one whole cycle. If that does not converge, Newton's method;
-    if that fails too, the engine is simulated from its own start and the end of that is reported.
+    method over the last four points) and verifies with one whole cycle. If that settles from none
+    of a few starts, the engine is simulated from its own start and the end of that is reported;
+    an engine that then seems unsteady is tried once more with a finer tolerance.
 
     Parameters
     ----------

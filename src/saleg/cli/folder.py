@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from saleg.export import csv_folder, formats, place
 from saleg.export.description import as_tables
-from saleg.export.units import PERFORMANCE_UNITS
+from saleg.performance import UNITS as PERFORMANCE_UNITS
 
 if TYPE_CHECKING:
     from saleg.results import Run

@@ -13,9 +13,10 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.export.place import RunFileError
-from saleg.export.units import CODES, LAYOUTS, PERFORMANCE_UNITS
+from saleg.export.units import CODES, LAYOUTS
 from saleg.files import laws_by_slot
 from saleg.laws.base import Law
+from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.results import Run
 from saleg.start import Start
 from saleg.tables import CYCLE_UNITS

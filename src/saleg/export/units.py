@@ -9,32 +9,6 @@ import numpy as np
 from saleg.kernel import layout
 from saleg.tables import EVENT_UNITS, HISTORY_UNITS
 
-PERFORMANCE_UNITS = {
-    "stroke": "m",
-    "compression_ratio": "-",
-    "frequency": "Hz",
-    "power": "W",
-    "rms_power": "W",
-    "efficiency": "-",
-    "mean_alternator_force": "N",
-    "peak_pressure": "Pa",
-    "peak_acceleration": "m/s^2",
-    "peak_velocity": "m/s",
-    "fuel_energy_per_cycle": "J",
-    "charge_mass": "kg",
-    "moving_mass": "kg",
-    "peak_temperature": "K",
-    "peak_pressure_rise": "Pa/s",
-    "indicated_work": "J",
-    "indicated_efficiency": "-",
-    "adverse_work": "J",
-    "start_of_combustion": "s",
-    "start_of_combustion_position": "m",
-    "burn_centre": "s",
-    "stability": "-",
-    "cr_change": "-",
-}
-
 STROKE_UNITS = {
     "t": "s",
     "duration": "s",

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from saleg.engine import Engine
 from saleg.errors import UnknownPath
-from saleg.export.units import PERFORMANCE_UNITS
 from saleg.laws import Law
 from saleg.paths import unit_of
+from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.quantities import is_number
 from saleg.results import Run
 from saleg.sensitivity.settle import is_stable, settle

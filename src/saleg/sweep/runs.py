@@ -218,7 +218,7 @@ def _table(points: pd.DataFrame, parts: dict[int, Columns], subject: Subject) ->
             continue
         values: list[Any] = []
         for part in ordered:
-            values += part.get(name, [missing({}, name)] * len(part["status"]))
+            values += part.get(name, [missing(name)] * len(part["status"]))
         table[name] = np.array(values, dtype=kind_of(name))
     return _described(table, subject, [str(name) for name in points])
 
