@@ -6,6 +6,7 @@ stops exactly at its events; results only read. All quantities are in SI units.
 
 from saleg import laws, machines
 from saleg.batches import simulate_many, steady_states
+from saleg.controller import Controller
 from saleg.engine import (
     BounceChamber,
     Cylinder,
@@ -25,6 +26,7 @@ from saleg.version import __version__
 
 __all__ = [
     "BounceChamber",
+    "Controller",
     "Cylinder",
     "EnergyBalance",
     "Engine",
@@ -54,6 +56,7 @@ __all__ = [
 #: Parts that are imported on first use.
 LAZY = (
     "continuation",
+    "control",
     "design",
     "export",
     "fundamental",

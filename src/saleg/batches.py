@@ -13,7 +13,7 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.errors import SalegError
-from saleg.kernel.compose import kernel_for
+from saleg.kernel.compose import Kernel, kernel_for
 from saleg.performance import UNITS as PERFORMANCE_UNITS
 from saleg.performance import Performance
 from saleg.simulate import SettingsError, settings_of, simulate
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     import pandas as pd
+
+    from saleg.results import Run
 
 #: Engines sent to a worker at a time.
 CHUNK = 32
@@ -95,7 +97,7 @@ def steady_states(
     check_tolerance(rtol)
     one = partial(_steady_row, rtol=rtol, multipliers=multipliers)
     units = UNITS if multipliers else STEADY_UNITS
-    return _table(one, engines, units, executor, workers, chunk)
+    return table_of(one, engines, units, executor, workers, chunk, kernel_for)
 
 
 def simulate_many(
@@ -126,7 +128,7 @@ def simulate_many(
     """
     settings_of(duration, **settings)
     one = partial(_run_row, duration=duration, settings=settings)
-    return _table(one, engines, RUN_UNITS, executor, workers, chunk)
+    return table_of(one, engines, RUN_UNITS, executor, workers, chunk, kernel_for)
 
 
 def _steady_row(engine: Engine, rtol: float, multipliers: bool) -> Row:
@@ -155,7 +157,11 @@ def steady_row(
 
 def _run_row(engine: Engine, duration: float, settings: Mapping[str, Any]) -> Row:
     """Row of a run."""
-    run = simulate(engine, duration, **settings)
+    return run_row(simulate(engine, duration, **settings))
+
+
+def run_row(run: Run) -> Row:
+    """Row of a run: how it ended and the figures of its last cycle."""
     row = _row(run.status, run.message, run.performance)
     row["evaluations"] = float(run.evaluations)
     return row
@@ -192,15 +198,16 @@ def missing(name: str) -> Any:
     return False if name == "stable" else np.nan
 
 
-def _table(
-    one: Callable[[Engine], Row],
-    engines: Iterable[Engine],
+def table_of(
+    one: Callable[[T], Row],
+    items: Iterable[T],
     units: Mapping[str, str],
     executor: Executor | None,
     workers: int | None,
     chunk: int,
+    kernel_of: Callable[[T], Kernel],
 ) -> pd.DataFrame:
-    """Send engines out in chunks and put their rows together in order."""
+    """Send engines, or whatever `one` makes rows of, out in chunks; put the rows in order."""
     import pandas as pd
 
     from saleg.workers import completed
@@ -209,8 +216,8 @@ def _table(
         if not isinstance(value, (int, np.integer)) or not 1 <= value < 2**31:
             raise SettingsError(f"{name} = {value!r}: must be a whole number >= 1")
     parts: dict[int, dict[str, np.ndarray]] = {}
-    chunks = enumerate(_chunks(one, engines, chunk))
-    with progress_bar(engines) as bar:
+    chunks = enumerate(_chunks(one, items, chunk, kernel_of))
+    with progress_bar(items) as bar:
         for number, columns in completed(partial(rows_of, one), chunks, executor, workers):
             parts[number] = {name: _column(columns, name) for name in units}
             if bar is not None:
@@ -237,23 +244,23 @@ def kind_of(name: str) -> type:
 
 
 def _chunks(
-    one: Callable[[Engine], Row], engines: Iterable[Engine], size: int
-) -> Iterator[list[Engine]]:
-    """Engines in lists.
+    one: Callable[[T], Row], items: Iterable[T], size: int, kernel_of: Callable[[T], Kernel]
+) -> Iterator[list[T]]:
+    """Items in lists.
 
-    The first engine with a new combination of laws is tried here and now, so that its kernel is
+    The first item with a new combination of laws is tried here and now, so that its kernel is
     compiled once before the workers ask for it: cold caches are no place for a race.
     """
-    source, known = iter(engines), set()
+    source, known = iter(items), set()
     while taken := list(itertools.islice(source, size)):
-        for engine in taken:
+        for item in taken:
             try:
-                kernel = kernel_for(engine)
+                kernel = kernel_of(item)
             except Exception:
                 continue  # its row will say why
             if kernel not in known:
                 known.add(kernel)
-                rows_of(one, [engine])
+                rows_of(one, [item])
         yield taken
 
 

@@ -41,6 +41,12 @@ class InvalidEngine(WrongFields):
     whole = "engine"
 
 
+class InvalidController(WrongFields):
+    """A controller with fields out of range; `problems` lists them all."""
+
+    whole = "controller"
+
+
 class OutsideModel(WrongFields):
     """Quantities for which the fundamental model of Chapter 2 says nothing."""
 
@@ -60,6 +66,10 @@ class EngineFileError(SalegError, ValueError):
 
 class LawError(SalegError, TypeError):
     """A law that cannot be compiled; names law, method and the offending name."""
+
+
+class ControllerError(SalegError, ValueError):
+    """A command an engine cannot be given."""
 
 
 class StartError(SalegError, ArithmeticError):

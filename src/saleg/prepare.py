@@ -41,6 +41,11 @@ class State:
     y: np.ndarray
     peaks: np.ndarray
 
+    @property
+    def time(self) -> float:
+        """Time reached [s]."""
+        return float(self.engine["t"][0])
+
     def copy(self) -> State:
         """Another state of the same numbers, peaks forgotten."""
         parts = (self.engine.copy(), self.chambers.copy(), self.y.copy())
@@ -122,6 +127,21 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
     E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
+    E.regulated_weight = E.load_weight
+    _rate(E, C)
+
+
+def _rate(E: Any, C: Any) -> None:
+    """Note fuel and intake temperature the engine is built with: those of its first cylinder."""
+    fired = [c for c in C if c.lower_heating_value > 0.0]
+    if not fired:
+        return
+    E.rated_equivalence_ratio = E.equivalence_ratio = fired[0].equivalence_ratio_wanted
+    E.rated_intake_temperature = E.intake_temperature = fired[0].intake_temperature
+    rated = E.rated_equivalence_ratio
+    for c in fired:
+        c.beside_rated_temperature = c.intake_temperature - E.rated_intake_temperature
+        c.over_rated_fuel = c.equivalence_ratio_wanted / rated if rated > 0.0 else 1.0
 
 
 def current_scale(engine: Engine, load_weight: float, speed: float) -> float:

@@ -14,7 +14,7 @@ from saleg.engine import Engine
 from saleg.kernel.layout import EVENT_NAMES
 from saleg.performance import EnergyBalance, Performance
 from saleg.status import Status
-from saleg.tables import cycle_table, event_table, history_table
+from saleg.tables import cycle_table, dead_centre_table, event_table, history_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -72,6 +72,13 @@ class Run:
     def cycles(self) -> pd.DataFrame:
         """One row per cycle, left dead centre to left dead centre; units in ``.attrs``."""
         return cycle_table(self.engine, self.strokes)
+
+    @cached_property
+    def dead_centres(self) -> pd.DataFrame:
+        """One row per stroke: what is measured at the dead centre that ends it, and what was
+        commanded during it; units in ``.attrs``.
+        """
+        return dead_centre_table(self.engine, self.strokes)
 
     @cached_property
     def events(self) -> pd.DataFrame:

@@ -4,22 +4,26 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout, tableaus
-from saleg.kernel.compose import Kernel, kernel_for, needs_motored_pressure, parameters
+from saleg.kernel.compose import kernel_for, needs_motored_pressure, parameters
 from saleg.prepare import State, prepare
 from saleg.quantities import is_number
 from saleg.records import Records
 from saleg.results import Run
+from saleg.status import Status
 from saleg.verdict import verdict
+
+if TYPE_CHECKING:
+    from saleg.controller import Controller
 
 #: Steps between two looks at the progress bar and the keyboard.
 STEPS_PER_CALL = 200_000
@@ -175,69 +179,107 @@ def settings_of(
 
 def integrate(engine: Engine, state: State, settings: Settings) -> Run:
     """Integrate from a state; the engine is taken to be valid."""
-    if needs_motored_pressure(engine):
-        settings = replace(settings, motored_pressure=True)
-    kernel = kernel_for(engine)
-    P = parameters(engine)
-    options = options_record(settings, float(state.engine["t"][0]) + settings.duration)
-    records = Records(bool(settings.history), settings.keep_cycles)
-    snapshot = _snapshot(state)
-    code = _drive(kernel, P, state, settings, options, records, snapshot)
-    strokes = records.kept_strokes.joined()
-    status, message = verdict(engine, code, state, strokes)
-    return Run(
-        engine=engine,
-        status=status,
-        message=message,
-        duration=float(state.engine["t"][0]),
-        strokes=strokes,
-        event_rows=records.kept_events.joined(),
-        history_rows=records.finished_history(),
-        evaluations=int(state.engine["evaluations"][0]),
-        steps=int(state.engine["steps"][0]),
-        settings=_described(settings),
-        replay=_replay(engine, snapshot, settings),
-    )
+    course = Course(engine, state, settings)
+    code = course.go_on()
+    return course.run(*verdict(engine, code, state, course.strokes), course.replay())
 
 
-def _drive(
-    kernel: Kernel,
-    P: np.ndarray,
-    state: State,
-    settings: Settings,
-    options: np.ndarray,
-    records: Records,
-    snapshot: tuple[np.ndarray, ...],
-) -> int:
-    """Call the kernel until it is done; returns why it stopped."""
-    method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
-    order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
-    work = work_space(len(method.b))
-    with _progress(settings.duration) as bar:
-        while True:
-            before = float(state.engine["t"][0])
-            code = kernel.call(
-                "run_on",
-                P,
-                state.engine,
-                state.chambers,
-                state.y,
-                state.peaks,
-                tuple(method),
-                order,
-                options,
-                records.strokes,
-                records.events,
-                records.history,
-                records.filled,
-                snapshot,
-                work,
-            )
-            records.make_room()
-            if bar is not None:
-                bar.update(float(state.engine["t"][0]) - before)
-            if code != layout.BUFFER_FULL:
-                return int(code)
+class Course:
+    """A run under way: the engine's state, the compiled kernel, and what has been recorded.
+
+    Parameters
+    ----------
+    engine : Engine
+        A valid engine.
+    state : State
+        Where it stands; moves on.
+    settings : Settings
+    controller : Controller, optional
+        Compiled with the engine, or whose actuators are.
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        state: State,
+        settings: Settings,
+        controller: Controller | None = None,
+    ):
+        if needs_motored_pressure(engine):
+            settings = replace(settings, motored_pressure=True)
+        self.engine, self.state, self.settings = engine, state, settings
+        self.controller = controller
+        self.kernel = kernel_for(engine, controller=controller)
+        self.options = options_record(settings, state.time + settings.duration)
+        self.records = Records(bool(settings.history), settings.keep_cycles)
+        self.snapshot = _snapshot(state)
+        method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
+        order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
+        self._before = (
+            parameters(engine, controller),
+            state.engine,
+            state.chambers,
+            state.y,
+            state.peaks,
+            tuple(method),
+            order,
+            self.options,
+        )
+        self._work = work_space(len(method.b))
+
+    @property
+    def strokes(self) -> np.ndarray:
+        """Rows of all strokes so far."""
+        return self.records.kept_strokes.joined()
+
+    def go_on(self) -> int:
+        """Call the kernel until it is done; returns why it stopped."""
+        with _progress(self.settings.duration) as bar:
+            while True:
+                before = self.state.time
+                code = self.advance()
+                if bar is not None:
+                    bar.update(self.state.time - before)
+                if code != layout.BUFFER_FULL:
+                    return code
+
+    def advance(self) -> int:
+        """Call the kernel once; returns why it stopped."""
+        records = self.records
+        code = self.kernel.call(
+            "run_on",
+            *self._before,
+            records.strokes,
+            records.events,
+            records.history,
+            records.filled,
+            self.snapshot,
+            self._work,
+        )
+        records.make_room()
+        return int(code)
+
+    def replay(self) -> Replay | None:
+        """How to see the last full cycle again; None without one."""
+        if self.snapshot[0]["mass"][1] == 0.0 or self.settings.last_stroke < math.inf:
+            return None
+        return Replay(self.engine, self.snapshot, self.settings, self.controller)
+
+    def run(self, status: Status, message: str, replay: Callable[[], Run] | None = None) -> Run:
+        """What has been recorded, as a run."""
+        return Run(
+            engine=self.engine,
+            status=status,
+            message=message,
+            duration=self.state.time,
+            strokes=self.strokes,
+            event_rows=self.records.kept_events.joined(),
+            history_rows=self.records.finished_history(),
+            evaluations=int(self.state.engine["evaluations"][0]),
+            steps=int(self.state.engine["steps"][0]),
+            settings=_described(self.settings),
+            replay=replay,
+        )
 
 
 def options_record(settings: Settings, t_end: float) -> np.ndarray:
@@ -286,9 +328,16 @@ class Replay:
     engine: Engine
     snapshot: tuple[np.ndarray, ...]
     settings: Settings
+    controller: Controller | None = None
 
     def __call__(self) -> Run:
         """Run the cycle."""
+        course = self.course()
+        code = course.go_on()
+        return course.run(*verdict(self.engine, code, course.state, course.strokes))
+
+    def course(self) -> Course:
+        """The cycle about to begin."""
         E, C, y = (part[1].copy() for part in self.snapshot)
         state = State(E.reshape(1), C, y, np.zeros(layout.N_PEAKS))
         period = float(self.snapshot[0]["t"][0] - self.snapshot[0]["t"][1])
@@ -301,14 +350,7 @@ class Replay:
             peaks=2,
             keep_cycles=None,
         )
-        return integrate(self.engine, state, asked)
-
-
-def _replay(engine: Engine, snapshot: tuple[np.ndarray, ...], settings: Settings) -> Replay | None:
-    """How to see the last full cycle again; None without one."""
-    if snapshot[0]["mass"][1] == 0.0 or settings.last_stroke < math.inf:
-        return None
-    return Replay(engine, snapshot, settings)
+        return Course(self.engine, state, asked, self.controller)
 
 
 def _described(settings: Settings) -> dict[str, Any]:

@@ -15,6 +15,7 @@ class Status(enum.Enum):
     STALLED = "stalled"
     HEAD_CONTACT = "head contact"
     STEP_FAILURE = "step failure"
+    CONTROLLER_FAULT = "controller fault"
     INVALID = "invalid"
 
     @property

@@ -38,6 +38,23 @@ CYCLE_UNITS = {
     "electrical_energy": "J",
 }
 
+DEAD_CENTRE_UNITS = {
+    "t": "s",
+    "x": "m",
+    "stroke": "m",
+    "compression_ratio": "-",
+    "frequency": "Hz",
+    "power": "W",
+    "motoring": "-",
+    "motor_amplitude": "N",
+    "motor_frequency": "Hz",
+    "load_weight": "-",
+    "equivalence_ratio": "-",
+    "intake_temperature": "K",
+    "peak_pressure_left": "Pa",
+    "peak_pressure_right": "Pa",
+}
+
 EVENT_UNITS = {
     "t": "s",
     "event": "-",
@@ -114,6 +131,33 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
     frame = pd.DataFrame(columns)
     frame.index.name = "cycle"
     frame.attrs["units"] = dict(CYCLE_UNITS)
+    return frame
+
+
+def dead_centre_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
+    """One row per stroke, at the dead centre that ends it."""
+    import pandas as pd
+
+    length = np.abs(strokes["x_end"] - strokes["x_start"])
+    most = engine.maximum_stroke
+    columns = {
+        "t": strokes["t"],
+        "x": strokes["x_end"],
+        "stroke": length,
+        "compression_ratio": (most + length) / (most - length),
+        "frequency": 0.5 / strokes["duration"],
+        "power": strokes["electrical_energy"] / strokes["duration"],
+        "motoring": strokes["motoring"] > 0.0,
+        "motor_amplitude": strokes["motor_amplitude"],
+        "motor_frequency": strokes["motor_frequency"],
+        "load_weight": strokes["load_weight"],
+        "equivalence_ratio": strokes["equivalence_ratio"],
+        "intake_temperature": strokes["intake_temperature"],
+        "peak_pressure_left": strokes["peak_pressure"][:, 0],
+        "peak_pressure_right": strokes["peak_pressure"][:, 1],
+    }
+    frame = pd.DataFrame(columns)
+    frame.attrs["units"] = dict(DEAD_CENTRE_UNITS)
     return frame
 
 

@@ -69,7 +69,7 @@ def _imbalance(strokes: np.ndarray) -> float:
     return abs(balance.residual) / balance.released if balance.released > 0.0 else 0.0
 
 
-_PER_CYCLE = "dead centres change by {:.1e} half strokes per cycle"
+PER_CYCLE = "dead centres change by {:.1e} half strokes per cycle"
 _STALL_HINT = "try a smaller load, more fuel, or another start"
 
 
@@ -90,15 +90,15 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
             else "the load weight is 0; try more fuel or a smaller alternator.target_stroke"
         )
         return Status.IDLING, f"fires at t = {t:.6g} s but delivers no power: {why}"
-    change = _change_per_cycle(engine, strokes[: start + 2])
+    change = change_per_cycle(engine, strokes[: start + 2])
     if change is not None and change < STEADY:
-        return Status.STEADY, f"steady at t = {t:.6g} s: {_PER_CYCLE.format(change)}"
+        return Status.STEADY, f"steady at t = {t:.6g} s: {PER_CYCLE.format(change)}"
     if change is None:
         return Status.COMPLETED, f"ran to t = {t:.6g} s, too few cycles to call it steady"
-    return Status.COMPLETED, f"ran to t = {t:.6g} s, not steady yet: {_PER_CYCLE.format(change)}"
+    return Status.COMPLETED, f"ran to t = {t:.6g} s, not steady yet: {PER_CYCLE.format(change)}"
 
 
-def _change_per_cycle(engine: Engine, strokes: np.ndarray) -> float | None:
+def change_per_cycle(engine: Engine, strokes: np.ndarray) -> float | None:
     """Largest change of a dead centre from cycle to cycle over the last few, in half strokes."""
     ends = strokes["x_end"][-2 * STEADY_CYCLES - 2 :]
     if len(ends) < 2 * STEADY_CYCLES + 2:

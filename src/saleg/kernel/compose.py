@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.controller import UNCONTROLLED
 from saleg.errors import LawError
 from saleg.kernel import jit
 from saleg.kernel.cache import locked, usable_folder, write_atomically
@@ -31,13 +32,25 @@ from saleg.kernel.powers import EXPONENTIAL
 from saleg.kernel.source import Borrowed, NoSource, check_law, fingerprint
 from saleg.laws import CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
+from saleg.laws.controlling import CONTROL_SLOTS
 
 if TYPE_CHECKING:
+    from saleg.controller import Controller
     from saleg.engine import Chamber, Engine
 
 PACKAGE = Path(__file__).resolve().parent.parent
 BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py")
-INTEGRATOR = ("rhs", "step", "events", "peaks", "switch", "observe", "integrate", "orbit")
+INTEGRATOR = (
+    "rhs",
+    "step",
+    "events",
+    "peaks",
+    "control",
+    "switch",
+    "observe",
+    "integrate",
+    "orbit",
+)
 
 #: What fills the combustion slots of a bounce chamber; never called, since it never lights.
 IDLE_LAWS: dict[str, Law] = {
@@ -114,13 +127,18 @@ def slots_of(chamber: Chamber) -> dict[str, Law]:
     return {name: getattr(chamber, name, IDLE_LAWS.get(name)) for name in CHAMBER_SLOTS}  # type: ignore[misc]
 
 
-def laws_of(engine: Engine) -> dict[str, dict[str, Law]]:
-    """Laws of an engine by place (left, right, engine) and slot."""
-    return {
+def laws_of(
+    engine: Engine, controller: Controller | None = None
+) -> dict[str, dict[str, Law]]:
+    """Laws of an engine, and of its controller if it has one, by place and slot."""
+    found = {
         "left": slots_of(engine.left),
         "right": slots_of(engine.right),
         "engine": {name: getattr(engine, name) for name in ENGINE_SLOTS},
     }
+    if controller is not None:
+        found["control"] = {name: getattr(controller, name) for name in CONTROL_SLOTS}
+    return found
 
 
 def needs_motored_pressure(engine: Engine) -> bool:
@@ -129,7 +147,7 @@ def needs_motored_pressure(engine: Engine) -> bool:
     return any(law.needs_motored_pressure for law in laws)  # type: ignore[attr-defined]
 
 
-def check_laws(engine: Engine) -> None:
+def check_laws(engine: Engine, controller: Controller | None = None) -> None:
     """Refuse laws that cannot become part of a kernel, before any of them is called.
 
     Raises
@@ -137,21 +155,35 @@ def check_laws(engine: Engine) -> None:
     LawError
         Naming law and method.
     """
-    for laws in laws_of(engine).values():
+    for laws in laws_of(engine, controller).values():
         for law in laws.values():
             check_law(type(law))  # type: ignore[arg-type]
 
 
-def kernel_for(engine: Engine, modules: tuple[str, ...] = INTEGRATOR) -> Kernel:
-    """Compiled kernel for the laws of an engine.
+def kernel_for(
+    engine: Engine,
+    modules: tuple[str, ...] = INTEGRATOR,
+    controller: Controller | None = None,
+) -> Kernel:
+    """Compiled kernel for the laws of an engine and its controller.
 
     Composed once per choice of laws, and anew when a law, or a helper or constant it uses, has
     been changed in this process, as in a notebook.
     """
-    laws = [law for place in laws_of(engine).values() for law in place.values()]
+    laws = [*_all_laws(engine), *_control_laws(controller or UNCONTROLLED)]
     classes = tuple(type(law) for law in laws)
     state = tuple(fingerprint(law) for law in dict.fromkeys(classes) if not _is_ours(law))
     return _load(classes, modules, tuple(_lengths(law) for law in laws), state)
+
+
+def _all_laws(engine: Engine) -> list[Law]:
+    """Laws of an engine in the order of its record."""
+    return [law for place in laws_of(engine).values() for law in place.values()]
+
+
+def _control_laws(controller: Controller) -> list[Law]:
+    """Laws of a controller in the order of its record."""
+    return [getattr(controller, name) for name in CONTROL_SLOTS]
 
 
 def _is_ours(law: type[Law]) -> bool:
@@ -159,9 +191,19 @@ def _is_ours(law: type[Law]) -> bool:
     return law.__module__.startswith("saleg.laws.")
 
 
-def parameters(engine: Engine) -> np.ndarray:
-    """All numbers of an engine's laws as an array of one record."""
-    laws = [law for place in laws_of(engine).values() for law in place.values()]
+def parameters(engine: Engine, controller: Controller | None = None) -> np.ndarray:
+    """All numbers of the laws of an engine and its controller as an array of one record."""
+    laws = _all_laws(engine)
+    control = _control_laws(controller or UNCONTROLLED)
+    numbers = IDLE_NUMBERS if controller is None else _numbers_of(control)
+    record = _record_of_all(
+        tuple(type(law) for law in (*laws, *control)), tuple(map(_lengths, (*laws, *control)))
+    )
+    return np.array([*_numbers_of(laws), *numbers], np.float64).view(record)
+
+
+def _numbers_of(laws: Sequence[Law]) -> list[float]:
+    """Numbers of some laws in the order of their records."""
     flat: list[float] = []
     for law in laws:
         kind: Any = type(law)
@@ -170,8 +212,7 @@ def parameters(engine: Engine) -> np.ndarray:
                 flat.extend(value if isinstance(value, (tuple, list)) else (value,))
         else:
             flat.extend(values_of(law))
-    record = _record_of_all(tuple(type(law) for law in laws), tuple(map(_lengths, laws)))
-    return np.array(flat, np.float64).view(record)
+    return flat
 
 
 @lru_cache(maxsize=256)
@@ -180,7 +221,7 @@ def _record_of_all(classes: tuple[Any, ...], lengths: tuple[Lengths, ...]) -> np
     records = [_record(law, length) for law, length in zip(classes, lengths, strict=True)]
     n = len(CHAMBER_SLOTS)
     sides = [list(zip(CHAMBER_SLOTS, records[i : i + n], strict=True)) for i in (0, n)]
-    rest = list(zip(ENGINE_SLOTS, records[2 * n :], strict=True))
+    rest = list(zip((*ENGINE_SLOTS, *CONTROL_SLOTS), records[2 * n :], strict=True))
     return np.dtype([("left", sides[0]), ("right", sides[1]), *rest])
 
 
@@ -232,6 +273,10 @@ def _lengths(law: Law) -> Lengths:
     return tuple((name, len(getattr(law, name))) for name in _series_names(kind))
 
 
+#: Numbers of the laws that fill the slots of a controller where there is none.
+IDLE_NUMBERS = _numbers_of(_control_laws(UNCONTROLLED))
+
+
 @lru_cache(maxsize=128)
 def _load(
     classes: tuple[type[Law], ...],
@@ -241,12 +286,12 @@ def _load(
 ) -> Kernel:
     """Compose, keep and import the kernel for a choice of law classes in a certain state."""
     n = len(CHAMBER_SLOTS)
-    left, right, engine = classes[:n], classes[n : 2 * n], classes[2 * n :]
+    left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
     own = [law.__name__ for law in dict.fromkeys(classes) if not _is_ours(law)]
     try:
-        text = compose(left, right, engine, modules)
+        text = compose(left, right, rest, modules)
     except NoSource:
-        return _load_from_memory(left, right, engine, modules, own)
+        return _load_from_memory(left, right, rest, modules, own)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     folder = usable_folder()
     if folder is None:
@@ -260,11 +305,14 @@ def _load(
 def compose(
     left: Sequence[type[Law]],
     right: Sequence[type[Law]],
-    engine: Sequence[type[Law]],
+    rest: Sequence[type[Law]],
     modules: Sequence[str] = INTEGRATOR,
     injected: dict[str, Any] | None = None,
 ) -> str:
-    """Text of the composed module for the law classes of each place, in the order of the slots."""
+    """Text of the composed module for the law classes of each place, in the order of the slots.
+
+    `rest` are the laws of the engine as a whole and of its controller.
+    """
     parts = ["import math", "import numba", "import numpy as np", ""]
     parts += [f"from math import exp as {EXPONENTIAL}"]
     parts += [jit.COMPILED_HEADER + jit.CACHED_ON_DISK]
@@ -272,7 +320,8 @@ def compose(
     eases = "rhs" in modules
     for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
         parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
-    for (name, base), law in zip(ENGINE_SLOTS.items(), engine, strict=True):
+    slots = {**ENGINE_SLOTS, **(CONTROL_SLOTS if "rhs" in modules else {})}
+    for (name, base), law in zip(slots.items(), rest, strict=False):
         for method in base.compiled:
             parts += methods_text(law, method, f"engine_{name}", base, injected)
             arguments = ", ".join(_arguments(base, method))
@@ -419,13 +468,13 @@ def _in_memory(text: str) -> str:
 def _load_from_memory(
     left: Sequence[type[Law]],
     right: Sequence[type[Law]],
-    engine: Sequence[type[Law]],
+    rest: Sequence[type[Law]],
     modules: Sequence[str],
     own: Sequence[str],
 ) -> Kernel:
     """Kernel for laws whose source cannot be had: compiled from their bytecode, not kept."""
     injected: dict[str, Any] = {}
-    text = _in_memory(compose(left, right, engine, modules, injected))
+    text = _in_memory(compose(left, right, rest, modules, injected))
     return Kernel(_execute(text, f"<saleg kernel {next(_numbers)}>", injected), None, own)
 
 

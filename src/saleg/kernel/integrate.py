@@ -18,6 +18,7 @@ from saleg.kernel.events import (
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
     BUFFER_FULL,
+    CONTROLLER_FAULT,
     DEAD_CENTRE,
     END_OF_TIME,
     HEAD,
@@ -254,6 +255,8 @@ def run_on(
                 keep_snapshot(E1, C, y, snapshot)
             if E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke:
                 return STALLED
+            if E.fault > 0.0:
+                return CONTROLLER_FAULT
             if E.strokes >= O.last_stroke:
                 return END_OF_TIME
     return END_OF_TIME

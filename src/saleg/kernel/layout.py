@@ -64,6 +64,7 @@ STEP_FAILURE = 4
 TOO_MANY_STEPS = 5
 NO_DEAD_CENTRE = 6
 NOT_FOUND = 7
+CONTROLLER_FAULT = 8
 # Steps of the adaptive method in one stroke beyond which an engine is too stiff for it.
 MOST_STEPS = 1_000_000.0
 
@@ -83,6 +84,8 @@ EVENT_END_OF_COMBUSTION = 4
 EVENT_MISFIRE = 5
 EVENT_HEAD_CONTACT = 6
 EVENT_CHARGE_RENEWAL = 7
+EVENT_MOTOR_ON = 8
+EVENT_MOTOR_OFF = 9
 EVENT_NAMES = (
     "dead centre",
     "port closing",
@@ -92,7 +95,17 @@ EVENT_NAMES = (
     "misfire",
     "head contact",
     "charge renewal",
+    "motor on",
+    "motor off",
 )
+
+# Who commands: nobody, the parts compiled into the kernel, an object of the caller's.
+UNCONTROLLED = 0
+COMPILED = 1
+IN_PYTHON = 2
+# Parts of a controller that hold numbers, and how many each.
+CONTROL_PARTS = 5
+HELD = 4
 
 #: State of the engine beside the state vector, with what it needs at every evaluation.
 ENGINE_RECORD = np.dtype(
@@ -128,6 +141,29 @@ ENGINE_RECORD = np.dtype(
             "mass_per_work",
         )
     ]
+    # What the stroke just ended looked like from outside, and what is commanded (kernel/control.py):
+    # `controlled` is 0 without a controller, COMPILED or IN_PYTHON.
+    + [
+        (name, np.float64)
+        for name in (
+            "stroke_duration",
+            "power",
+            "regulated_weight",
+            "rated_equivalence_ratio",
+            "rated_intake_temperature",
+            "controlled",
+            "fault",
+            "t_command",
+            "motoring",
+            "motor_amplitude",
+            "motor_frequency",
+            "motor_sweep",
+            "motor_phase",
+            "equivalence_ratio",
+            "intake_temperature",
+        )
+    ]
+    + [("held", np.float64, (CONTROL_PARTS, HELD))]
 )
 
 #: One chamber: geometry and intake, then what stands in it, then what the stroke has seen so far.
@@ -191,6 +227,8 @@ CHAMBER_RECORD = np.dtype(
     # Exponent of the curve fresh charges lie on, 0 in a chamber that does not renew its charge at
     # bottom dead centre; whether that is due.
     + [(name, np.float64) for name in ("curve_exponent", "spent")]
+    # Intake temperature less the engine's rated one; equivalence ratio over the rated one.
+    + [(name, np.float64) for name in ("beside_rated_temperature", "over_rated_fuel")]
 )
 
 #: One row per stroke, written at the dead centre that ends it. Values per side are left, right.
@@ -214,6 +252,11 @@ STROKE_RECORD = np.dtype(
             "peak_acceleration",
             "peak_velocity",
             "spring_energy",
+            "motoring",
+            "motor_amplitude",
+            "motor_frequency",
+            "equivalence_ratio",
+            "intake_temperature",
         )
     ]
     + [

@@ -14,8 +14,8 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.peaks import pressure_rate
-from saleg.kernel.rhs import gas_of, height_of
-from saleg.kernel.slots import alternator_force, friction_force, springs_force
+from saleg.kernel.rhs import alternator_action, gas_of, height_of
+from saleg.kernel.slots import friction_force, springs_force
 from saleg.laws.arguments import Motion
 
 
@@ -46,7 +46,7 @@ def observe(P, E, C, y, dy, motored, row):
         row.mode[side] = C[side].mode
     row.spring_force = springs_force(P, motion)
     row.friction_force = friction_force(P, E.friction_held, motion)
-    row.alternator_force = alternator_force(P, E.load_weight, motion)
+    row.alternator_force, _ = alternator_action(P, E, E.t, motion)
     row.electrical_power = dy[N_STATE + ELECTRICAL_ENERGY]
     row.load_weight = E.load_weight
     row.current = y[CURRENT]

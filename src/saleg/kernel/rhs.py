@@ -4,7 +4,7 @@ Arguments shared by all functions here: `P` the laws, `E` the engine's record, `
 chambers' records (see :mod:`saleg.kernel.layout`), `side` 0 for left and 1 for right.
 """
 
-from math import exp, log, pi
+from math import exp, log, pi, sin
 
 from saleg.kernel.aid import Aid
 from saleg.kernel.jit import compiled, inline
@@ -33,6 +33,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.slots import (
+    actuators_motor_power,
     alternator_current_rate,
     alternator_electrical_power,
     alternator_force,
@@ -235,12 +236,28 @@ def motored_gas(C, side, gas):
 
 
 @inline
+def motor_angle(E, t):
+    """Angle of the motor's force [rad]."""
+    since = t - E.t_command
+    return E.motor_phase + 2.0 * pi * (E.motor_frequency + 0.5 * E.motor_sweep * since) * since
+
+
+@inline
+def alternator_action(P, E, t, motion):
+    """Force of the alternator against positive velocity [N] and the power it delivers [W]."""
+    if E.motoring > 0.0:
+        force = -E.motor_amplitude * sin(motor_angle(E, t))
+        return force, actuators_motor_power(P, force * motion.v)
+    force = alternator_force(P, E.load_weight, motion)
+    return force, alternator_electrical_power(P, E.load_weight, motion)
+
+
+@inline
 def rates_of_motion(P, E, t, y, dy, gas_force):
     """Newton's law (Eq. 36) and the quadratures of the translator."""
     motion = Motion(t, y[X], y[V], E.direction, y[CURRENT])
-    generator = alternator_force(P, E.load_weight, motion)
+    generator, power = alternator_action(P, E, t, motion)
     friction = friction_force(P, E.friction_held, motion)
-    power = alternator_electrical_power(P, E.load_weight, motion)
     dy[X] = y[V]
     dy[V] = (gas_force + springs_force(P, motion) - generator - friction) / E.mass
     dy[CURRENT] = alternator_current_rate(P, E.load_weight, motion)

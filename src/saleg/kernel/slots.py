@@ -7,7 +7,7 @@ numbers; the names and arguments are the same.
 from typing import Any
 
 from saleg.kernel.aid import Aid
-from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
 
 
 def _chamber(P: Any, side: int) -> Any:
@@ -133,3 +133,43 @@ def alternator_current_rate(P: Any, held: float, motion: Motion) -> float:
 def alternator_electrical_power(P: Any, held: float, motion: Motion) -> float:
     """Electrical power."""
     return P.alternator.electrical_power(held, motion)
+
+
+def state_logic_motors(P: Any, held: Any, signals: Signals) -> float:
+    """Whether the alternator is a motor."""
+    return P.state_logic.motors(held, signals)
+
+
+def motor_control_drive(P: Any, held: Any, signals: Signals) -> Drive:
+    """Force of the motor."""
+    return P.motor_control.drive(held, signals)
+
+
+def load_control_weight(P: Any, held: Any, signals: Signals) -> float:
+    """Load weight."""
+    return P.load_control.weight(held, signals)
+
+
+def fuel_control_equivalence_ratio(P: Any, held: Any, signals: Signals) -> float:
+    """Equivalence ratio of the coming charge."""
+    return P.fuel_control.equivalence_ratio(held, signals)
+
+
+def intake_control_temperature(P: Any, held: Any, signals: Signals) -> float:
+    """Intake temperature."""
+    return P.intake_control.temperature(held, signals)
+
+
+def actuators_refused(P: Any, wanted: Commands) -> float:
+    """Number of a command out of its limits."""
+    return P.actuators.refused(wanted)
+
+
+def actuators_follow(P: Any, actual: Commands, wanted: Commands, elapsed: float) -> Commands:
+    """Where the actuators stand after some time."""
+    return P.actuators.follow(actual, wanted, elapsed)
+
+
+def actuators_motor_power(P: Any, mechanical: float) -> float:
+    """Electrical power of the motor."""
+    return P.actuators.motor_power(mechanical)

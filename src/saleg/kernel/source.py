@@ -23,6 +23,7 @@ import numpy as np
 
 from saleg.errors import LawError
 from saleg.kernel.powers import eased
+from saleg.laws import arguments
 from saleg.laws.base import GasProperties, Law
 
 ALLOWED_BUILTINS = frozenset(
@@ -49,7 +50,7 @@ def check_law(law: type[Law]) -> None:
         names = {item.name for item in dataclasses.fields(law)}
         if "gas_constant" not in names:
             raise LawError(f"{law.__name__} needs a field 'gas_constant' [J/kg/K]")
-    bases = [base for base in law.__mro__ if base.__module__ == GasProperties.__module__]
+    bases = [base for base in law.__mro__ if "slot" in vars(base)]
     for name in law.compiled:
         method = getattr(law, name)
         if name not in law.optional and any(vars(base).get(name) is method for base in bases):
@@ -255,9 +256,11 @@ def _body_nodes(tree: ast.FunctionDef) -> list[ast.AST]:
 
 
 def _library_name(name: str, value: Any) -> str | None:
-    """``math`` and ``np``, or a function or constant of theirs, under its canonical name."""
+    """``math``, ``np``, a function or constant of theirs, or what laws are shown, by its name."""
     if value is math or value is np:
         return "math" if value is math else "np"
+    if isinstance(value, type) and value.__module__ == arguments.__name__:
+        return value.__name__
     if callable(value):
         for module, prefix in ((math, "math"), (np, "np")):
             own = getattr(value, "__name__", name)

@@ -2,6 +2,7 @@
 
 from math import isfinite, log
 
+from saleg.kernel.control import decide, obey, signals_of
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
@@ -10,6 +11,7 @@ from saleg.kernel.layout import (
     ARMED,
     BURNING,
     CLOSED,
+    COMPILED,
     DEAD_CENTRE,
     DISARMED,
     ELECTRICAL_ENERGY,
@@ -20,6 +22,8 @@ from saleg.kernel.layout import (
     EVENT_HEAD_CONTACT,
     EVENT_IGNITION,
     EVENT_MISFIRE,
+    EVENT_MOTOR_OFF,
+    EVENT_MOTOR_ON,
     EVENT_PORT_CLOSING,
     EVENT_PORT_OPENING,
     FAILING,
@@ -46,6 +50,7 @@ from saleg.kernel.layout import (
     RIGHT,
     SPEED_SQUARED,
     THETA,
+    UNCONTROLLED,
     V,
     X,
 )
@@ -222,6 +227,9 @@ def write_stroke(P, E, C, y, peaks, row):
     row.x_start, row.x_end = E.x_dead_centre, y[X]
     row.direction = E.direction
     row.load_weight, row.friction_held = E.load_weight, E.friction_held
+    row.motoring, row.motor_amplitude = E.motoring, E.motor_amplitude
+    row.motor_frequency = E.motor_frequency + E.motor_sweep * (E.t - E.t_command)
+    row.equivalence_ratio, row.intake_temperature = E.equivalence_ratio, E.intake_temperature
     row.alternator_work = y[N_STATE + ALTERNATOR_WORK]
     row.electrical_energy = y[N_STATE + ELECTRICAL_ENERGY]
     row.electrical_squared = y[N_STATE + ELECTRICAL_SQUARED]
@@ -289,7 +297,11 @@ def regulate(P, E, C, y):
     E.last_speed_squared = squared
     E.stroke = length
     E.mean_piston_speed = length / duration
-    E.load_weight = alternator_at_dead_centre(P, E.load_weight, stroke)
+    E.stroke_duration = duration
+    E.power = y[N_STATE + ELECTRICAL_ENERGY] / duration
+    E.regulated_weight = alternator_at_dead_centre(P, E.load_weight, stroke)
+    if E.controlled == UNCONTROLLED:
+        E.load_weight = E.regulated_weight
     E.friction_held = friction_at_dead_centre(P, E.friction_held, stroke)
 
 
@@ -370,6 +382,8 @@ def turn(P, E, C, y, peaks, strokes, filled):
     for side in range(2):
         c = C[side]
         c.spent = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
+    if E.controlled == COMPILED:
+        obey(P, E, C, decide(P, E.held, signals_of(E)), E.t - E.t_command)
 
 
 @compiled
@@ -393,9 +407,13 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
         if quiet and not turns:
             break
         if quiet:
+            was_motoring = E.motoring
             turn(P, E, C, y, peaks, strokes, filled)
             side = LEFT if E.direction > 0.0 else RIGHT
             record_event(E, C, O, y, kind_of_turn(landed), side, events, filled)
+            if E.motoring != was_motoring:
+                kind = EVENT_MOTOR_ON if E.motoring > 0.0 else EVENT_MOTOR_OFF
+                record_event(E, C, O, y, kind, side, events, filled)
             turns = False
             changed = True
     if landed >= HEAD:

@@ -1,5 +1,6 @@
-"""Laws that fill the slots of an engine, one module per slot."""
+"""Laws that fill the slots of an engine and of a controller, one module per slot."""
 
+from saleg.laws.actuators import Actuators
 from saleg.laws.alternator import (
     CircuitAlternator,
     ConstantForce,
@@ -9,7 +10,7 @@ from saleg.laws.alternator import (
     LinearLoad,
     SinusoidalMotor,
 )
-from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
 from saleg.laws.base import (
     Alternator,
     Friction,
@@ -23,6 +24,14 @@ from saleg.laws.base import (
     Springs,
     Validity,
 )
+from saleg.laws.controlling import (
+    ActuatorLaw,
+    FuelControl,
+    IntakeControl,
+    LoadControl,
+    MotorControl,
+    StateLogic,
+)
 from saleg.laws.friction import (
     BlairViscousFriction,
     ConstantFriction,
@@ -31,6 +40,7 @@ from saleg.laws.friction import (
     NoFriction,
     ViscousFriction,
 )
+from saleg.laws.fuel_control import FuelCut, FuelOnDemand, NoFuel, RatedFuel
 from saleg.laws.gas_exchange import InstantExchange
 from saleg.laws.gas_properties import ChangGas, ConstantGamma
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
@@ -52,11 +62,18 @@ from saleg.laws.ignition import (
     SparkAtClearance,
     TabulatedDelay,
 )
+from saleg.laws.intake_control import HeatedIntake, RatedIntake
+from saleg.laws.load_control import PowerDemand, ScaledLoad, StrokeRegulator
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
+from saleg.laws.motor_control import ResonanceSearch, SteadyMotor
 from saleg.laws.springs import EndStops, LinearSprings, PreloadedSprings, ProgressiveSprings
+from saleg.laws.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 
 __all__ = [
+    "ActuatorLaw",
+    "Actuators",
     "Alternator",
+    "AlwaysMotored",
     "Annand",
     "BlairViscousFriction",
     "BurnProfile",
@@ -65,47 +82,68 @@ __all__ = [
     "ChangGas",
     "Charge",
     "CircuitAlternator",
+    "Commands",
+    "CompressionThreshold",
     "ConstantForce",
     "ConstantFriction",
     "ConstantGamma",
     "CosineForce",
     "CoulombViscousFriction",
     "DoubleWiebe",
+    "Drive",
     "EndStops",
     "FluxProfile",
     "ForceMap",
     "Friction",
     "FrictionShare",
+    "FuelControl",
+    "FuelCut",
+    "FuelOnDemand",
     "Gas",
     "GasExchange",
     "GasProperties",
     "HeatRelease",
     "HeatTransfer",
+    "HeatedIntake",
     "Hohenberg",
     "Ignition",
     "IgnitionAtDeadCentre",
     "IgnitionAtPressure",
     "InstantExchange",
     "InstantRelease",
+    "IntakeControl",
     "Law",
     "LinearLoad",
     "LinearSprings",
+    "LoadControl",
     "Misfires",
     "Motion",
+    "MotorControl",
+    "NeverMotored",
     "NoFriction",
+    "NoFuel",
     "NoHeatTransfer",
     "NoMisfires",
     "PolytropicLoss",
+    "PowerDemand",
     "PreloadedSprings",
     "ProgressiveSprings",
     "RCMIgnition",
     "RCMIgnitionPascal",
+    "RatedFuel",
+    "RatedIntake",
+    "ResonanceSearch",
+    "ScaledLoad",
     "ScheduledMisfires",
+    "Signals",
     "SinusoidalMotor",
     "SparkAfterDelay",
     "SparkAtClearance",
     "Springs",
+    "StateLogic",
+    "SteadyMotor",
     "Stroke",
+    "StrokeRegulator",
     "TabulatedDelay",
     "Validity",
     "ViscousFriction",

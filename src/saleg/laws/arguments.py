@@ -118,3 +118,106 @@ class Stroke(NamedTuple):
     piston_area: float
     fuel_energy: float
     speed_squared: float
+
+
+class Signals(NamedTuple):
+    """What a controller is shown: measurements of the stroke just ended, and ratings.
+
+    Attributes
+    ----------
+    t : float
+        Time [s].
+    x : float
+        Position of the latest dead centre [m].
+    direction : float
+        +1 if the coming stroke goes right, -1 if left, 0 before the first movement.
+    stroke : float
+        Distance between the last two dead centres S [m].
+    compression_ratio : float
+        Geometric, ``(L + S/2) / (L - S/2)`` [-].
+    frequency : float
+        ``1 / (2 x duration of the stroke)`` [Hz]; 0 before the first.
+    power : float
+        Mean electrical power over the stroke [W], negative where the motor drives.
+    regulated_weight : float
+        Load weight the alternator's own regulator (Eq. 59) asks for [-].
+    motoring : float
+        1 if the alternator is to be a motor in the coming stroke, else 0. The state logic itself
+        is shown what it was so far.
+    was_motoring : float
+        1 if it was a motor in the stroke just ended.
+    maximum_stroke : float
+        Greatest geometrically possible stroke [m].
+    rated_equivalence_ratio : float
+        Equivalence ratio the engine is built with [-].
+    rated_intake_temperature : float
+        Intake temperature the engine is built with [K].
+    """
+
+    t: float
+    x: float
+    direction: float
+    stroke: float
+    compression_ratio: float
+    frequency: float
+    power: float
+    regulated_weight: float
+    motoring: float
+    was_motoring: float
+    maximum_stroke: float
+    rated_equivalence_ratio: float
+    rated_intake_temperature: float
+
+
+class Drive(NamedTuple):
+    """How the alternator pushes as a motor: ``amplitude sin(angle)``, positive to the right.
+
+    The angle is ``phase + 2 pi (frequency s + sweep s^2 / 2)``, s the time since the command.
+
+    Attributes
+    ----------
+    amplitude : float
+        Amplitude of the force [N].
+    frequency : float
+        Frequency at the time of the command [Hz].
+    sweep : float
+        Rate of the frequency [Hz/s].
+    sets_phase : float
+        1 to begin with `phase`, 0 to go on from the angle reached.
+    phase : float
+        Phase to begin with [rad].
+    """
+
+    amplitude: float
+    frequency: float
+    sweep: float
+    sets_phase: float
+    phase: float
+
+
+class Commands(NamedTuple):
+    """What a controller asks for until it is asked again.
+
+    Attributes
+    ----------
+    motoring : float
+        1 to drive the alternator as a motor, 0 to draw power [-].
+    load_weight : float
+        Load weight W [-], where it draws power.
+    amplitude, frequency, sweep, sets_phase, phase : float
+        See :class:`Drive`.
+    equivalence_ratio : float
+        Of the charges composed from now on [-]; 0 cuts the fuel.
+    intake_temperature : float
+        Intake temperature [K].
+    """
+
+    motoring: float
+    load_weight: float
+    amplitude: float
+    frequency: float
+    sweep: float
+    sets_phase: float
+    phase: float
+    equivalence_ratio: float
+    intake_temperature: float

@@ -1,0 +1,276 @@
+"""The engine as a controller meets it: it advances, shows signals and takes commands."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from saleg.control.verdict import fault_message, verdict_of
+from saleg.controller import UNCONTROLLED, Controller
+from saleg.engine import Engine
+from saleg.errors import ControllerError
+from saleg.kernel import layout
+from saleg.kernel.compose import check_laws
+from saleg.kernel.control import decide, obey, signals_of
+from saleg.laws.arguments import Commands, Signals
+from saleg.laws.controlling import ActuatorLaw
+from saleg.prepare import State, prepare
+from saleg.quantities import is_number
+from saleg.results import Run
+from saleg.simulate import Course, Replay, Settings, SettingsError, settings_of
+
+
+class Plant:
+    """An engine under commands, from dead centre to dead centre.
+
+    Parameters
+    ----------
+    engine : Engine
+        Begins as its start law has it.
+    duration : float
+        Time at which it ends [s].
+    actuators : ActuatorLaw, optional
+        Limits and lags; :class:`saleg.laws.Actuators` unless given.
+    **settings
+        Further settings of :func:`saleg.simulate`, of which ``stall_stroke`` is 0 here.
+
+    Raises
+    ------
+    InvalidEngine, InvalidController, SettingsError
+        Naming what is wrong.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> from saleg.control import Plant, generator
+    >>> plant = Plant(saleg.machines.thesis_transient(), 0.5)
+    >>> while plant.running:
+    ...     plant.command(generator(plant.signals))
+    ...     plant.advance()
+    >>> round(plant.run().performance.frequency)
+    45
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        duration: float,
+        *,
+        actuators: ActuatorLaw | None = None,
+        **settings: Any,
+    ):
+        controller = replace(UNCONTROLLED, actuators=actuators or UNCONTROLLED.actuators)
+        self._begin(course_of(engine, controller, duration, layout.IN_PYTHON, settings))
+
+    @classmethod
+    def _again(cls, course: Course) -> Plant:
+        """A plant that goes on with a course."""
+        plant = cls.__new__(cls)
+        plant._begin(course)
+        return plant
+
+    def _begin(self, course: Course) -> None:
+        self._course = course
+        self._parts = course.controller
+        self._end = float(course.options["t_end"][0])
+        self._code = layout.BUFFER_FULL
+        self._commanded = False
+        self._at_dead_centres = True
+        self._log: dict[int, Commands] = {}
+
+    @property
+    def engine(self) -> Engine:
+        """The engine."""
+        return self._course.engine
+
+    @property
+    def time(self) -> float:
+        """Time reached [s]."""
+        return self._course.state.time
+
+    @property
+    def running(self) -> bool:
+        """Whether there is time left and nothing has ended the motion."""
+        return self._code == layout.BUFFER_FULL
+
+    @property
+    def signals(self) -> Signals:
+        """What is measured now; of the stroke, what the latest dead centre has shown."""
+        return measured(self._course.state)
+
+    def command(self, commands: Commands) -> None:
+        """Command the engine from now on.
+
+        Parameters
+        ----------
+        commands : Commands
+            See :func:`generator` and :func:`motor`.
+
+        Raises
+        ------
+        ControllerError
+            If a command is not finite or beyond the limits of its actuator; the engine then goes
+            on as before.
+        """
+        if not isinstance(commands, Commands):
+            raise ControllerError(f"must be Commands, not {type(commands).__name__}")
+        wrong = [name for name, value in commands._asdict().items() if not is_number(value)]
+        if wrong:
+            raise ControllerError(f"{', '.join(wrong)}: must be a number")
+        commands = Commands(*(float(value) for value in commands))
+        give(self._course, commands, first=not self._commanded)
+        self._commanded = True
+        self._log[int(self._course.state.engine["strokes"][0])] = commands
+
+    def advance(self, duration: float | None = None) -> None:
+        """Go on to the next dead centre, or for some time.
+
+        Parameters
+        ----------
+        duration : float, optional
+            Time to go on [s]; to the next dead centre unless given.
+
+        Raises
+        ------
+        SettingsError
+            If the duration makes no sense, or the run is over.
+        """
+        if not self.running:
+            raise SettingsError("the run is over: there is nothing to advance to")
+        end = self._end
+        E, O = self._course.state.engine, self._course.options
+        O["last_stroke"], O["t_end"] = E["strokes"] + 1.0, end
+        if duration is not None:
+            if not is_number(duration) or not 0.0 < duration < math.inf:
+                raise SettingsError(f"duration = {duration!r}: must be a number > 0 [s]")
+            self._at_dead_centres = False
+            O["last_stroke"], O["t_end"] = math.inf, min(end, self.time + duration)
+        code = layout.BUFFER_FULL
+        while code == layout.BUFFER_FULL:
+            code = self._course.advance()
+        if code != layout.END_OF_TIME or self.time >= end:
+            self._code = code
+
+    def run(self, fault: str = "") -> Run:
+        """What has been recorded so far.
+
+        Parameters
+        ----------
+        fault : str
+            What the controller did wrong, if that ended the run.
+
+        Returns
+        -------
+        Run
+        """
+        code = layout.END_OF_TIME if self.running else self._code
+        status, message = verdict_of(self._course, code, fault)
+        return self._course.run(status, message, self._replay())
+
+    def _replay(self) -> ReplayOfCommands | None:
+        """How to see the last cycle again; it needs commands given at dead centres."""
+        plain = self._course.replay()
+        if plain is None or not self._at_dead_centres:
+            return None
+        return ReplayOfCommands(
+            plain.engine, plain.snapshot, plain.settings, self._parts, self._log
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class ReplayOfCommands(Replay):
+    """The last cycle again, with the commands that were given in it."""
+
+    log: dict[int, Commands] | None = None
+
+    def __call__(self) -> Run:
+        """Run the cycle."""
+        plant, log = Plant._again(self.course()), self.log or {}
+        plant._commanded = True
+        course = plant._course
+        last = float(course.options["last_stroke"][0])
+        while plant.running and course.state.engine["strokes"][0] < last:
+            stroke = int(course.state.engine["strokes"][0])
+            if stroke in log:
+                plant.command(log[stroke])
+            plant.advance()
+        return plant.run()
+
+
+def course_of(
+    engine: Engine, controller: Controller, duration: float, controlled: int, settings: Any
+) -> Course:
+    """A run about to begin, under a controller."""
+    known: Settings = settings_of(duration, **{"stall_stroke": 0.0, **settings})
+    engine.validate()
+    controller.validate()
+    check_laws(engine, controller)
+    state = prepare(engine)
+    state.engine["controlled"] = controlled
+    return Course(engine, state, known, controller)
+
+
+def records_of(state: State) -> tuple[Any, Any]:
+    """Records of engine and chambers as the kernel's own functions read and write them."""
+    return state.engine.view(np.recarray)[0], state.chambers.view(np.recarray)
+
+
+def measured(state: State) -> Signals:
+    """What is measured at a state."""
+    E, _ = records_of(state)
+    return Signals(*(float(value) for value in signals_of(E)))
+
+
+def give(course: Course, commands: Commands, first: bool) -> None:
+    """Let the actuators follow commands; on a change of the motor, note the event."""
+    E, C = records_of(course.state)
+    was = float(E.motoring)
+    elapsed = math.inf if first else float(E.t - E.t_command)
+    obey(course.controller, E, C, commands, elapsed)
+    if E.fault > 0.0:
+        number = int(E.fault)
+        E.fault = 0.0
+        raise ControllerError(fault_message(number, commands, course.controller))
+    if E.motoring != was:
+        note_motor(course)
+
+
+def note_motor(course: Course) -> None:
+    """Put a change of the motor into the table of events."""
+    row = np.zeros(1, layout.EVENT_RECORD)
+    E, y = course.state.engine[0], course.state.y
+    on = E["motoring"] > 0.0
+    row["t"], row["x"], row["v"] = E["t"], y[layout.X], y[layout.V]
+    row["kind"] = layout.EVENT_MOTOR_ON if on else layout.EVENT_MOTOR_OFF
+    row["side"] = layout.LEFT if E["direction"] > 0.0 else layout.RIGHT
+    row["p"], row["T"] = state_of_gas(course, int(row["side"][0]))
+    course.records.kept_events.add(row)
+
+
+def state_of_gas(course: Course, side: int) -> tuple[float, float]:
+    """Pressure [Pa] and temperature [K] in a chamber."""
+    from saleg.kernel.events import pressure_and_temperature
+
+    _, C = records_of(course.state)
+    p, T = pressure_and_temperature(C, side, course.state.y)
+    return float(p), float(T)
+
+
+class InPython:
+    """A controller made of laws, run as Python.
+
+    Parameters
+    ----------
+    controller : Controller
+    """
+
+    def __init__(self, controller: Controller):
+        self.controller = controller
+        self.held = np.zeros((layout.CONTROL_PARTS, layout.HELD))
+
+    def act(self, signals: Signals) -> Commands:
+        """Commands at a dead centre."""
+        return Commands(*(float(value) for value in decide(self.controller, self.held, signals)))

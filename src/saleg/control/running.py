@@ -1,0 +1,285 @@
+"""A run under a controller, and many of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from saleg.batches import CHUNK, RUN_UNITS, Row, run_row, table_of
+from saleg.control.plant import InPython, Plant, course_of, give, measured, note_motor
+from saleg.control.sensors import Measurement, Sensors
+from saleg.control.verdict import verdict_of
+from saleg.controller import Controller
+from saleg.engine import Engine
+from saleg.errors import ControllerError
+from saleg.kernel import layout
+from saleg.kernel.compose import kernel_for
+from saleg.laws.arguments import Commands, Signals
+from saleg.laws.controlling import ActuatorLaw
+from saleg.quantities import is_number
+from saleg.results import Run
+from saleg.simulate import SettingsError
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    import pandas as pd
+
+#: Columns of a table of runs under controllers.
+CONTROL_UNITS = {**RUN_UNITS, "fired_at": "s", "motor_returns": "-", "motored_share": "-"}
+
+
+class Acts(Protocol):
+    """Anything with a method that turns signals into commands."""
+
+    def act(self, signals: Signals) -> Commands:
+        """Commands from what is measured."""
+
+
+def simulate(
+    engine: Engine,
+    controller: Controller | Acts,
+    duration: float,
+    *,
+    compiled: bool | None = None,
+    sensors: Sensors | None = None,
+    sample_time: float | None = None,
+    actuators: ActuatorLaw | None = None,
+    **settings: Any,
+) -> Run:
+    """Simulate an engine under a controller, which acts at every dead centre.
+
+    Parameters
+    ----------
+    engine : Engine
+        Begins as its start law has it; give it ``start=AtRest()`` to start it up.
+    controller : Controller, or any object with a method ``act(signals)``
+        Returns :class:`saleg.laws.Commands` from :class:`saleg.laws.Signals`.
+    duration : float
+        Time to simulate [s].
+    compiled : bool, optional
+        Whether a :class:`saleg.Controller` runs compiled with the engine or as Python; compiled
+        unless sensors or a sample time are given, which only Python has.
+    sensors : Sensors, optional
+        Errors of measurement; none unless given.
+    sample_time : float, optional
+        Let the controller act at these intervals [s] instead of at dead centres.
+    actuators : ActuatorLaw, optional
+        Limits and lags for an object of your own; a :class:`saleg.Controller` has its own.
+    **settings
+        Further settings of :func:`saleg.simulate`, of which ``stall_stroke`` is 0 here.
+
+    Returns
+    -------
+    Run
+        A controller that fails, returns what is no number or commands what the actuators cannot
+        do ends it with :attr:`saleg.Status.CONTROLLER_FAULT`. ``run.dead_centres`` shows signals
+        and commands.
+
+    Raises
+    ------
+    InvalidEngine, InvalidController, SettingsError
+        Naming what is wrong.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> engine = saleg.machines.thesis_transient().replace(start=saleg.start.AtRest())
+    >>> run = saleg.control.simulate(engine, saleg.Controller(), 0.2)
+    >>> bool(run.dead_centres.motoring.all())
+    True
+    """
+    laws = isinstance(controller, Controller)
+    in_python = sensors is not None or sample_time is not None
+    if compiled is None:
+        compiled = laws and not in_python
+    if compiled and (in_python or not laws):
+        raise SettingsError("compiled = True: only a Controller without sensors or sample_time is")
+    if laws and actuators is not None:
+        raise SettingsError("actuators: a Controller has its own; replace those")
+    if compiled and isinstance(controller, Controller):
+        return _compiled(engine, controller, duration, settings)
+    if sample_time is not None and (not is_number(sample_time) or not 0 < sample_time < math.inf):
+        raise SettingsError(f"sample_time = {sample_time!r}: must be a number > 0 [s]")
+    acting: Acts
+    if isinstance(controller, Controller):
+        controller.validate()
+        acting, actuators = InPython(controller), controller.actuators
+    else:
+        acting = controller
+    if not callable(getattr(acting, "act", None)):
+        raise SettingsError(f"{type(controller).__name__} has no method act(signals)")
+    plant = Plant(engine, duration, actuators=actuators, **settings)
+    measurement = Measurement(sensors or Sensors())
+    return _in_python(plant, acting, measurement if sensors else None, sample_time)
+
+
+def _compiled(engine: Engine, controller: Controller, duration: float, settings: Any) -> Run:
+    """Run with the controller in the kernel; its first commands are given here."""
+    course = course_of(engine, controller, duration, layout.COMPILED, settings)
+    parts = InPython(controller)
+    try:
+        give(course, parts.act(measured(course.state)), first=True)
+    except ControllerError as error:
+        return course.run(*verdict_of(course, 0, f"{type(controller).__name__}: {error}"))
+    course.state.engine["held"][0] = parts.held
+    code = course.go_on()
+    return course.run(*verdict_of(course, code), course.replay())
+
+
+def _in_python(
+    plant: Plant, controller: Acts, measurement: Measurement | None, sample_time: float | None
+) -> Run:
+    """Run with the controller asked between calls of the kernel."""
+    inner = getattr(controller, "controller", controller)
+    name = type(inner).__name__
+    while plant.running:
+        signals = plant.signals
+        if measurement is not None:
+            signals = measurement.of(signals)
+        try:
+            commands = controller.act(signals)
+        except Exception as error:  # whatever the user's code does, the run says so
+            return plant.run(f"{name} raised {type(error).__name__}: {error}")
+        try:
+            plant.command(commands)
+        except ControllerError as error:
+            return plant.run(f"{name}: {error}")
+        plant.advance(sample_time)
+    return plant.run()
+
+
+def generator(signals: Signals, **changes: float) -> Commands:
+    """Commands for a generator at rated fuel and intake, loaded as its regulator asks.
+
+    Parameters
+    ----------
+    signals : Signals
+    **changes
+        Commands to be other than that, by name.
+
+    Returns
+    -------
+    Commands
+    """
+    plain = Commands(
+        motoring=0.0,
+        load_weight=signals.regulated_weight,
+        amplitude=0.0,
+        frequency=0.0,
+        sweep=0.0,
+        sets_phase=0.0,
+        phase=0.0,
+        equivalence_ratio=signals.rated_equivalence_ratio,
+        intake_temperature=signals.rated_intake_temperature,
+    )
+    return plain._replace(**changes)
+
+
+def motor(signals: Signals, amplitude: float, frequency: float, **changes: float) -> Commands:
+    """Commands for a motor without fuel; its angle goes on from where it is.
+
+    Parameters
+    ----------
+    signals : Signals
+    amplitude : float
+        Amplitude of the force [N].
+    frequency : float
+        Frequency [Hz].
+    **changes
+        Commands to be other than that, by name.
+
+    Returns
+    -------
+    Commands
+    """
+    drive = {"motoring": 1.0, "load_weight": 0.0, "equivalence_ratio": 0.0}
+    return generator(signals, **{**drive, "amplitude": amplitude, "frequency": frequency, **changes})
+
+
+def simulate_many(
+    pairs: Iterable[tuple[Engine, Controller]],
+    duration: float,
+    *,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    chunk: int = CHUNK,
+    **settings: Any,
+) -> pd.DataFrame:
+    """Simulate many engines, each under a compiled controller, and keep how they end.
+
+    Parameters
+    ----------
+    pairs : iterable of (Engine, Controller)
+        Taken as they are needed.
+    duration : float
+        Time to simulate [s].
+    executor, workers, chunk
+        As for :func:`saleg.steady_states`.
+    **settings
+        Further settings of :func:`saleg.simulate`.
+
+    Returns
+    -------
+    DataFrame
+        One row per pair, in order: status, message, figures of the last cycle, ``fired_at``, when
+        the motor was first left [s], ``motor_returns``, how often it came back, and
+        ``motored_share``, the share of the strokes that were motored. Units in ``.attrs``.
+    """
+    one: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
+    return table_of(one, pairs, CONTROL_UNITS, executor, workers, chunk, _kernel_of)
+
+
+def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
+    return kernel_for(pair[0], controller=pair[1])
+
+
+def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any) -> Row:
+    """Row of a run under a controller."""
+    run = simulate(pair[0], pair[1], duration, compiled=True, **settings)
+    return {
+        **run_row(run),
+        "fired_at": fired_at(run),
+        "motor_returns": float(motor_returns(run)),
+        "motored_share": motored_share(run),
+    }
+
+
+def motored_share(run: Run) -> float:
+    """Share of the strokes in which the alternator was a motor [-]; NaN without strokes."""
+    return float(np.mean(run.strokes["motoring"] > 0.0)) if len(run.strokes) else math.nan
+
+
+def fired_at(run: Run) -> float:
+    """When the motor was first left for fuel and load [s]; NaN if never.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    float
+    """
+    off = run.event_rows["t"][run.event_rows["kind"] == layout.EVENT_MOTOR_OFF]
+    return float(off[0]) if len(off) else math.nan
+
+
+def motor_returns(run: Run) -> int:
+    """How often the motor came back after the engine had been fired.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    int
+    """
+    kinds = run.event_rows["kind"]
+    off = np.flatnonzero(kinds == layout.EVENT_MOTOR_OFF)
+    return int((kinds[off[0] :] == layout.EVENT_MOTOR_ON).sum()) if len(off) else 0

@@ -1,0 +1,96 @@
+"""Parts of a controller as laws: what is compiled beside the engine and acts at dead centres.
+
+A controller in the kernel has five parts and stands behind actuators. Each part may keep
+:data:`HELD` numbers in `held` from one dead centre to the next; they begin at zero.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from saleg.laws.arguments import Commands, Drive, Signals
+from saleg.laws.base import Law
+
+#: Numbers a part may keep.
+HELD = 4
+
+
+class StateLogic(Law):
+    """Whether the alternator is a motor or draws power."""
+
+    slot = "state_logic"
+    compiled = ("motors",)
+
+    def motors(self, held: Any, signals: Signals) -> float:
+        """1 for a motor, 0 for a generator, until the next dead centre."""
+        raise NotImplementedError
+
+
+class MotorControl(Law):
+    """How the alternator pushes as a motor."""
+
+    slot = "motor_control"
+    compiled = ("drive",)
+
+    def drive(self, held: Any, signals: Signals) -> Drive:
+        """Force until the next dead centre; asked, and without effect, where it does not motor."""
+        raise NotImplementedError
+
+
+class LoadControl(Law):
+    """How much the alternator draws."""
+
+    slot = "load_control"
+    compiled = ("weight",)
+
+    def weight(self, held: Any, signals: Signals) -> float:
+        """Load weight W [-] until the next dead centre."""
+        raise NotImplementedError
+
+
+class FuelControl(Law):
+    """How much fuel the charges get."""
+
+    slot = "fuel_control"
+    compiled = ("equivalence_ratio",)
+
+    def equivalence_ratio(self, held: Any, signals: Signals) -> float:
+        """Equivalence ratio [-] of the charge composed in the coming stroke; 0 for no fuel."""
+        raise NotImplementedError
+
+
+class IntakeControl(Law):
+    """How warm the intake is."""
+
+    slot = "intake_control"
+    compiled = ("temperature",)
+
+    def temperature(self, held: Any, signals: Signals) -> float:
+        """Intake temperature [K] until the next dead centre."""
+        raise NotImplementedError
+
+
+class ActuatorLaw(Law):
+    """What stands between a controller and the engine: limits, lags, losses."""
+
+    slot = "actuators"
+    compiled = ("refused", "follow", "motor_power")
+
+    def refused(self, wanted: Commands) -> float:
+        """Number of the first command out of its limits or not finite, from 1 on; 0 if none is."""
+        raise NotImplementedError
+
+    def follow(self, actual: Commands, wanted: Commands, elapsed: float) -> Commands:
+        """Where the actuators stand `elapsed` seconds after they stood at `actual`."""
+        raise NotImplementedError
+
+    def motor_power(self, mechanical: float) -> float:
+        """Electrical power delivered [W] for a mechanical power taken from the translator [W]."""
+        raise NotImplementedError
+
+
+#: Slots of a controller, by name, in the order they are asked.
+CONTROL_SLOTS: dict[str, type[Law]] = {
+    law.slot: law
+    for law in (StateLogic, MotorControl, LoadControl, FuelControl, IntakeControl, ActuatorLaw)
+}
