@@ -46,6 +46,11 @@ class State:
         """Time reached [s]."""
         return float(self.engine["t"][0])
 
+    @property
+    def records(self) -> tuple[Any, Any]:
+        """Records of engine and chambers as the kernel's plain functions read and write them."""
+        return self.engine.view(np.recarray)[0], self.chambers.view(np.recarray)
+
     def copy(self) -> State:
         """Another state of the same numbers, peaks forgotten."""
         parts = (self.engine.copy(), self.chambers.copy(), self.y.copy())

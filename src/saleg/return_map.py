@@ -209,7 +209,7 @@ class ReturnMap:
     def vector(self, state: State) -> np.ndarray:
         """A state as a vector."""
         z = np.empty(layout.N_VECTOR)
-        write_vector(Fields(state.engine[0]), [Fields(c) for c in state.chambers], state.y, z)
+        write_vector(*state.records, state.y, z)
         return z
 
     def jacobian(self, start: State, z: np.ndarray) -> np.ndarray:
@@ -229,14 +229,6 @@ class ReturnMap:
             difference = self.image(start, ahead) - self.image(start, behind)
             matrix[:, n] = difference / (2.0 * DIFFERENCE)
         return matrix
-
-
-class Fields:
-    """A record with its fields as attributes, for the kernel's plain functions."""
-
-    def __init__(self, record: Any):
-        for name in record.dtype.names:
-            setattr(self, name, record[name].item())
 
 
 def constant_entries(engine: Engine) -> set[int]:

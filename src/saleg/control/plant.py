@@ -213,20 +213,15 @@ def course_of(
     return Course(engine, state, known, controller)
 
 
-def records_of(state: State) -> tuple[Any, Any]:
-    """Records of engine and chambers as the kernel's own functions read and write them."""
-    return state.engine.view(np.recarray)[0], state.chambers.view(np.recarray)
-
-
 def measured(state: State) -> Signals:
     """What is measured at a state."""
-    E, _ = records_of(state)
+    E, _ = state.records
     return Signals(*(float(value) for value in signals_of(E)))
 
 
 def give(course: Course, commands: Commands, first: bool) -> None:
     """Let the actuators follow commands; on a change of the motor, note the event."""
-    E, C = records_of(course.state)
+    E, C = course.state.records
     was = float(E.motoring)
     elapsed = math.inf if first else float(E.t - E.t_command)
     obey(course.controller, E, C, commands, elapsed)
@@ -254,7 +249,7 @@ def state_of_gas(course: Course, side: int) -> tuple[float, float]:
     """Pressure [Pa] and temperature [K] in a chamber."""
     from saleg.kernel.events import pressure_and_temperature
 
-    _, C = records_of(course.state)
+    _, C = course.state.records
     p, T = pressure_and_temperature(C, side, course.state.y)
     return float(p), float(T)
 

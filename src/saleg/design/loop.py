@@ -23,7 +23,7 @@ from saleg.engine import Engine, Translator
 from saleg.kernel import layout
 from saleg.kernel.orbit import read_vector, write_vector
 from saleg.prepare import State, prepare
-from saleg.return_map import Fields, ReturnMap, is_symmetric, repeats_itself
+from saleg.return_map import ReturnMap, is_symmetric, repeats_itself
 from saleg.start import CompressedCharge, Start
 from saleg.steady import (
     DEFAULT_TOLERANCE,
@@ -185,10 +185,9 @@ def near_state(engine: Engine, near: SteadyState) -> State | None:
     if [*state.chambers["mode"]] != [*C["mode"]]:
         return None
     z = np.empty(layout.N_VECTOR)
-    write_vector(Fields(E), [Fields(c) for c in C], y, z)
-    # Attributes of a record array's elements write through to the record.
-    chambers = state.chambers.view(np.recarray)
-    read_vector(state.engine.view(np.recarray)[0], [chambers[0], chambers[1]], state.y, z)
+    theirs = State(E.reshape(1), C, y, np.zeros(layout.N_PEAKS))
+    write_vector(*theirs.records, y, z)
+    read_vector(*state.records, state.y, z)
     return state
 
 

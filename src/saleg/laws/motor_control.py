@@ -16,7 +16,8 @@ class ResonanceSearch(MotorControl):
     """Raise the frequency towards resonance by the missing compression (Eq. 69).
 
     ``f = f_base + K_p E + K_i (integral of E)`` with ``E = (CR_target - CR) / CR_target``, which
-    is held between dead centres; so the frequency rises evenly within a stroke.
+    is held between dead centres; so the frequency rises evenly within a stroke. While the engine
+    is fired E counts as zero.
 
     Parameters
     ----------
@@ -57,10 +58,12 @@ class ResonanceSearch(MotorControl):
             held[0] += held[1] * (signals.t - held[2])
         elif returns and self.keeps_integral == 0.0:
             held[0] = 0.0
-        error = (self.target - signals.compression_ratio) / self.target
+        error = 0.0
+        if signals.motoring > 0.0:
+            error = (self.target - signals.compression_ratio) / self.target
         held[1], held[2] = error, signals.t
         frequency = self.base_frequency + self.proportional_gain * error
-        frequency += self.integral_gain * held[0]
+        frequency = max(frequency + self.integral_gain * held[0], 0.0)
         sweep = self.integral_gain * error
         if self.literal_phase > 0.0:  # the same angle, written from this dead centre on
             phase = 2.0 * math.pi * frequency * signals.t
