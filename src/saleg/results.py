@@ -75,8 +75,9 @@ class Run:
 
     @cached_property
     def dead_centres(self) -> pd.DataFrame:
-        """One row per stroke: what is measured at the dead centre that ends it, and what was
-        commanded during it; units in ``.attrs``.
+        """One row per stroke: what its end shows a controller, and what was commanded during it.
+
+        Units in ``.attrs``.
         """
         return dead_centre_table(self.engine, self.strokes)
 

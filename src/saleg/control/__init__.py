@@ -1,5 +1,20 @@
 """Control (Chapter 5): engines under controllers, and the experiments of the dissertation."""
 
+from saleg.control.demand import Demand
+from saleg.control.experiments import (
+    demand_by_fuel,
+    demand_by_intake,
+    demand_by_load,
+    fuel_cut,
+    misfire,
+    misfires,
+    motored,
+    overload,
+    rapid_start,
+    recovery_time,
+    start_up,
+)
+from saleg.control.maps import OperatingMap, operating_grid, operating_map
 from saleg.control.plant import Plant
 from saleg.control.running import (
     fired_at,
@@ -12,12 +27,27 @@ from saleg.control.running import (
 from saleg.control.sensors import Sensors
 
 __all__ = [
+    "Demand",
+    "OperatingMap",
     "Plant",
     "Sensors",
+    "demand_by_fuel",
+    "demand_by_intake",
+    "demand_by_load",
     "fired_at",
+    "fuel_cut",
     "generator",
+    "misfire",
+    "misfires",
     "motor",
     "motor_returns",
+    "motored",
+    "operating_grid",
+    "operating_map",
+    "overload",
+    "rapid_start",
+    "recovery_time",
     "simulate",
     "simulate_many",
+    "start_up",
 ]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from saleg.batches import CHUNK, RUN_UNITS, Row, run_row, table_of
-from saleg.control.plant import InPython, Plant, course_of, give, measured, note_motor
+from saleg.control.plant import InPython, Plant, course_of, give, measured
 from saleg.control.sensors import Measurement, Sensors
 from saleg.control.verdict import verdict_of
 from saleg.controller import Controller
@@ -198,7 +198,9 @@ def motor(signals: Signals, amplitude: float, frequency: float, **changes: float
     Commands
     """
     drive = {"motoring": 1.0, "load_weight": 0.0, "equivalence_ratio": 0.0}
-    return generator(signals, **{**drive, "amplitude": amplitude, "frequency": frequency, **changes})
+    return generator(
+        signals, **{**drive, "amplitude": amplitude, "frequency": frequency, **changes}
+    )
 
 
 def simulate_many(

@@ -127,9 +127,7 @@ def slots_of(chamber: Chamber) -> dict[str, Law]:
     return {name: getattr(chamber, name, IDLE_LAWS.get(name)) for name in CHAMBER_SLOTS}  # type: ignore[misc]
 
 
-def laws_of(
-    engine: Engine, controller: Controller | None = None
-) -> dict[str, dict[str, Law]]:
+def laws_of(engine: Engine, controller: Controller | None = None) -> dict[str, dict[str, Law]]:
     """Laws of an engine, and of its controller if it has one, by place and slot."""
     found = {
         "left": slots_of(engine.left),

@@ -141,8 +141,8 @@ ENGINE_RECORD = np.dtype(
             "mass_per_work",
         )
     ]
-    # What the stroke just ended looked like from outside, and what is commanded (kernel/control.py):
-    # `controlled` is 0 without a controller, COMPILED or IN_PYTHON.
+    # What the stroke just ended showed, and what is commanded (kernel/control.py):
+    # `controlled` is UNCONTROLLED, COMPILED or IN_PYTHON.
     + [
         (name, np.float64)
         for name in (

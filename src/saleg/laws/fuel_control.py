@@ -57,7 +57,7 @@ class FuelCut(FuelControl):
 
 @dataclass(frozen=True, kw_only=True)
 class FuelOnDemand(FuelControl):
-    """Equivalence ratio by an integral controller on the compression ratio a power calls for (5.2).
+    """Equivalence ratio by an integral controller on the compression ratio (5.2).
 
     The map (Fig. 104) turns the power demanded into a compression ratio, clipped at its ends; what
     is missing is integrated, ``phi = phi_rated + K (integral of CR_target - CR)``, within limits.
@@ -76,7 +76,7 @@ class FuelOnDemand(FuelControl):
         Limits of the equivalence ratio [-].
     """
 
-    gain: float = quantity("1/s", default=0.03, low=0)
+    gain: float = quantity("1/s", default=0.3, low=0)
     powers: tuple[float, ...] = series("W", default=(1800.0, 3800.0), low=0, rising=True)
     compression_ratios: tuple[float, ...] = series(
         "-", default=(12.0, 18.0), low=1, length="powers"

@@ -23,10 +23,10 @@ class RatedIntake(IntakeControl):
 
 @dataclass(frozen=True, kw_only=True)
 class HeatedIntake(IntakeControl):
-    """Intake temperature by an integral controller on the compression ratio a power calls for (5.2).
+    """Intake temperature by an integral controller on the compression ratio (5.2).
 
     The map (Fig. 101) turns the power demanded into a compression ratio, clipped at its ends; what
-    is too much is integrated, ``T = T_rated + K (integral of CR - CR_target)``, within limits: a
+    is beyond that is integrated, ``T = T_rated + K (integral of CR - CR_target)``, within limits: a
     warmer intake lights earlier and compresses less. It stands still while the alternator is a
     motor.
 
@@ -44,7 +44,7 @@ class HeatedIntake(IntakeControl):
         Limits of the temperature [K].
     """
 
-    gain: float = quantity("K/s", default=20.0, low=0)
+    gain: float = quantity("K/s", default=100.0, low=0)
     powers: tuple[float, ...] = series("W", default=(1800.0, 3800.0), low=0, rising=True)
     compression_ratios: tuple[float, ...] = series(
         "-", default=(12.0, 18.0), low=1, length="powers"

@@ -1,0 +1,477 @@
+"""The experiments of Chapter 5, each a function of an engine.
+
+Those that begin at rest bring the engine up by motored resonance first, as the dissertation does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.control.demand import Demand
+from saleg.control.maps import OperatingMap, operating_map
+from saleg.control.running import motor_returns, simulate, simulate_many
+from saleg.controller import Controller
+from saleg.engine import Engine
+from saleg.laws.controlling import LoadControl
+from saleg.laws.fuel_control import FuelCut, FuelOnDemand
+from saleg.laws.intake_control import HeatedIntake
+from saleg.laws.load_control import PowerDemand, ScaledLoad, StrokeRegulator
+from saleg.laws.motor_control import ResonanceSearch, SteadyMotor
+from saleg.laws.state_logic import AlwaysMotored, CompressionThreshold
+from saleg.results import Run
+from saleg.start import AtRest
+from saleg.steady import steady_state
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    import pandas as pd
+
+#: Time a motored engine is given to settle [s]; its amplitude decays within about one second.
+SETTLING = 15.0
+#: Base frequency of a rapid start-up (Fig. 106) [Hz].
+RAPID = 38.0
+#: Strokes of a cut that does not end.
+FOR_EVER = 1e12
+#: Values of the maps the dissertation draws: intake temperature [K], up to its limit, and
+#: equivalence ratio.
+INTAKE_TEMPERATURES = tuple(float(T) for T in np.linspace(263.0, 370.0, 12))
+EQUIVALENCE_RATIOS = tuple(float(phi) for phi in np.linspace(0.1, 0.7, 13))
+#: How near the steady compression ratio an engine has recovered, relatively.
+RECOVERED = 0.02
+
+
+def motored(
+    engine: Engine,
+    frequencies: Sequence[float],
+    amplitudes: Sequence[float],
+    *,
+    duration: float = SETTLING,
+    executor: Executor | None = None,
+) -> pd.DataFrame:
+    """Motor an engine at frequencies and amplitudes until it settles (Fig. 94, 95).
+
+    Parameters
+    ----------
+    engine : Engine
+    frequencies, amplitudes : sequence of float
+        Frequency [Hz] and amplitude [N] of each run; a single one goes with all of the others.
+    duration : float
+        Time each is given [s].
+    executor : concurrent.futures.Executor, optional
+        Who does the work; threads of this process unless given.
+
+    Returns
+    -------
+    DataFrame
+        One row per run: ``motor_frequency``, ``motor_amplitude``, ``stroke``,
+        ``relative_stroke`` (over the maximum), ``compression_ratio``, ``opens_ports``,
+        ``status``, ``message``. Units in ``.attrs``.
+    """
+    import pandas as pd
+
+    pairs = np.broadcast_arrays(*(np.atleast_1d(v) for v in (frequencies, amplitudes)))
+    at_rest = engine.replace(start=AtRest())
+    controllers = [
+        Controller(
+            state_logic=AlwaysMotored(),
+            motor_control=SteadyMotor(frequency=float(f), amplitude=float(a)),
+        )
+        for f, a in zip(*pairs, strict=True)
+    ]
+    table = simulate_many(
+        [(at_rest, controller) for controller in controllers],
+        duration,
+        executor=executor,
+        rtol=1e-6,
+        keep_cycles=50,
+    )
+    most = engine.maximum_stroke
+    ports = min(
+        getattr(side, "port_closing", math.inf) - side.half_stroke for side in engine.chambers
+    )
+    frame = pd.DataFrame(
+        {
+            "motor_frequency": pairs[0],
+            "motor_amplitude": pairs[1],
+            "stroke": table.stroke,
+            "relative_stroke": table.stroke / most,
+            "compression_ratio": table.compression_ratio,
+            "opens_ports": 0.5 * table.stroke > ports,
+            "status": table.status,
+            "message": table.message,
+        }
+    )
+    units = {"motor_frequency": "Hz", "motor_amplitude": "N", "stroke": "m"}
+    frame.attrs["units"] = {name: units.get(name, "-") for name in frame.columns}
+    return frame
+
+
+def start_up(
+    engine: Engine,
+    base_frequency: float = 30.0,
+    *,
+    duration: float = 3.5,
+    controller: Controller | None = None,
+    **settings: Any,
+) -> Run:
+    """Start an engine from rest by motored resonance (5.1, Fig. 97-99).
+
+    Parameters
+    ----------
+    engine : Engine
+        Begins at rest at the midpoint, whatever its own start.
+    base_frequency : float
+        Frequency the motor begins with [Hz]; below resonance, or it never starts.
+    duration : float
+        Time to simulate [s].
+    controller : Controller, optional
+        Its state logic, amplitude and gains; those of the dissertation unless given.
+    **settings
+        Further settings of :func:`saleg.control.simulate`.
+
+    Returns
+    -------
+    Run
+        ``saleg.control.fired_at(run)`` says when the threshold was passed.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> run = saleg.control.start_up(saleg.machines.thesis_transient(), 38.0, duration=1.5)
+    >>> round(saleg.control.fired_at(run), 2)
+    0.49
+    """
+    chosen = controller or Controller()
+    search = chosen.motor_control
+    if isinstance(search, ResonanceSearch):
+        chosen = replace(chosen, motor_control=replace(search, base_frequency=base_frequency))
+    return simulate(engine.replace(start=AtRest()), chosen, duration, **settings)
+
+
+def rapid_start(**parts: Any) -> Controller:
+    """Controller that starts an engine up rapidly, with other parts of its own.
+
+    Parameters
+    ----------
+    **parts
+        Fields of :class:`saleg.Controller`.
+
+    Returns
+    -------
+    Controller
+    """
+    return Controller(**{"motor_control": ResonanceSearch(base_frequency=RAPID), **parts})
+
+
+def demand_by_load(
+    engine: Engine,
+    demand: Demand,
+    *,
+    share: float = 0.5,
+    proportional_gain: float = 0.1,
+    integral_gain: float = 1.0,
+    duration: float = 6.0,
+    **settings: Any,
+) -> Run:
+    """Start an engine up and let its load alone follow a demand: P+PI (5.2, Fig. 100).
+
+    Parameters
+    ----------
+    engine : Engine
+    demand : Demand
+        Power over time.
+    share, proportional_gain, integral_gain : float
+        Of :class:`saleg.laws.PowerDemand`; the dissertation gives none of them.
+    duration : float
+        Time to simulate [s].
+    **settings
+        Further settings of :func:`saleg.control.simulate`.
+
+    Returns
+    -------
+    Run
+    """
+    law = PowerDemand(
+        share=share,
+        proportional_gain=proportional_gain,
+        integral_gain=integral_gain,
+        rated_power=steady_state(engine).performance.power,
+        times=demand.times,
+        demands=demand.powers,
+    )
+    at_rest = engine.replace(start=AtRest())
+    return simulate(at_rest, rapid_start(load_control=law), duration, **settings)
+
+
+def demand_by_intake(
+    engine: Engine,
+    demand: Demand,
+    *,
+    gain: float = 100.0,
+    known: OperatingMap | None = None,
+    load_control: LoadControl | None = None,
+    duration: float = 6.0,
+    **settings: Any,
+) -> Run:
+    """Start an engine up and let its intake temperature follow a demand (5.2, Fig. 102, 103).
+
+    Parameters
+    ----------
+    engine : Engine
+    demand : Demand
+        Power over time.
+    gain : float
+        Of :class:`saleg.laws.HeatedIntake` [K/s]; the dissertation does not give it.
+    known : OperatingMap, optional
+        Power and compression ratio over the intake temperature; made up to 370 K unless given.
+    load_control : LoadControl, optional
+        What controls the load; the stroke regulator alone unless given.
+    duration : float
+        Time to simulate [s].
+    **settings
+        Further settings of :func:`saleg.control.simulate`.
+
+    Returns
+    -------
+    Run
+    """
+    known = known or operating_map(engine, "intake.temperature", INTAKE_TEMPERATURES)
+    law = HeatedIntake(
+        gain=gain,
+        powers=known.powers,
+        compression_ratios=known.compression_ratios,
+        lowest=known.lowest,
+        highest=known.highest,
+        times=demand.times,
+        demands=demand.powers,
+    )
+    load = load_control or StrokeRegulator()
+    controller = rapid_start(intake_control=law, load_control=load)
+    return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
+
+
+def demand_by_fuel(
+    engine: Engine,
+    demand: Demand,
+    *,
+    gain: float = 0.3,
+    known: OperatingMap | None = None,
+    duration: float = 6.0,
+    **settings: Any,
+) -> Run:
+    """Start an engine up and let its equivalence ratio follow a demand (5.2).
+
+    Parameters
+    ----------
+    engine : Engine
+    demand : Demand
+        Power over time.
+    gain : float
+        Of :class:`saleg.laws.FuelOnDemand` [1/s].
+    known : OperatingMap, optional
+        Power and compression ratio over the equivalence ratio; made from 0.1 to 0.7 unless given.
+    duration : float
+        Time to simulate [s].
+    **settings
+        Further settings of :func:`saleg.control.simulate`.
+
+    Returns
+    -------
+    Run
+    """
+    known = known or operating_map(engine, "equivalence_ratio", EQUIVALENCE_RATIOS)
+    law = FuelOnDemand(
+        gain=gain,
+        powers=known.powers,
+        compression_ratios=known.compression_ratios,
+        lowest=known.lowest,
+        highest=known.highest,
+        times=demand.times,
+        demands=demand.powers,
+    )
+    at_rest = engine.replace(start=AtRest())
+    return simulate(at_rest, rapid_start(fuel_control=law), duration, **settings)
+
+
+def fuel_cut(engine: Engine, *, at: float = 1.5, duration: float = 3.0, **settings: Any) -> Run:
+    """Start an engine up, run it and cut its fuel for good: it rings down (Fig. 106).
+
+    Parameters
+    ----------
+    engine : Engine
+    at : float
+        When the fuel is cut [s].
+    duration : float
+        Time to simulate [s].
+    **settings
+        Further settings of :func:`saleg.control.simulate`.
+
+    Returns
+    -------
+    Run
+    """
+    controller = rapid_start(
+        state_logic=CompressionThreshold(latched=1.0),
+        fuel_control=FuelCut(at=at, strokes=FOR_EVER),
+    )
+    return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
+
+
+def overload(
+    engine: Engine,
+    *,
+    begin: float = 2.0,
+    end: float = 4.0,
+    factor: float = 6.0,
+    duration: float = 8.0,
+    late_ignition: bool = True,
+    **settings: Any,
+) -> Run:
+    """Start an engine up and load it ever more until it misfires and rings down (Fig. 107).
+
+    Parameters
+    ----------
+    engine : Engine
+    begin, end : float
+        When the load begins and ends to rise [s].
+    factor : float
+        What the regulated load is multiplied with at last [-].
+    duration : float
+        Time to simulate [s].
+    late_ignition : bool
+        Whether fuel that missed its dead centre may ignite later; the dissertation's does, once
+        the ports stay closed and the walls heat the charge.
+    **settings
+        Further settings of :func:`saleg.control.simulate`.
+
+    Returns
+    -------
+    Run
+    """
+    controller = rapid_start(
+        state_logic=CompressionThreshold(latched=1.0),
+        load_control=ScaledLoad(times=(begin, end), factors=(1.0, factor)),
+    )
+    changed = engine.replace(start=AtRest(), late_ignition=float(late_ignition))
+    return simulate(changed, controller, duration, **settings)
+
+
+def misfire(
+    engine: Engine,
+    *,
+    strokes: int = 1,
+    at: float = 1.5,
+    motor: bool = True,
+    duration: float = 3.0,
+    **settings: Any,
+) -> Run:
+    """Start an engine up, cut its fuel for some strokes and see whether it recovers (Fig. 108).
+
+    Parameters
+    ----------
+    engine : Engine
+    strokes : int
+        Strokes in a row that compose their charge without fuel.
+    at : float
+        When the cut begins, at the next dead centre [s].
+    motor : bool
+        Whether the motor comes back below the threshold.
+    duration : float
+        Time to simulate [s].
+    **settings
+        Further settings of :func:`saleg.control.simulate`.
+
+    Returns
+    -------
+    Run
+        :func:`recovery_time` says how long it took.
+    """
+    controller = rapid_start(
+        state_logic=CompressionThreshold(latched=0.0 if motor else 1.0),
+        fuel_control=FuelCut(at=at, strokes=float(strokes)),
+    )
+    return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
+
+
+def recovery_time(run: Run, at: float) -> float:
+    """Time from a disturbance until the compression ratio stays where it was before.
+
+    Parameters
+    ----------
+    run : Run
+    at : float
+        When the disturbance began [s].
+
+    Returns
+    -------
+    float
+        Time until the compression ratio is within 2 % of the one before, for good [s]; NaN if it
+        does not get there.
+    """
+    t = run.strokes["t"]
+    length = np.abs(run.strokes["x_end"] - run.strokes["x_start"])
+    most = run.engine.maximum_stroke
+    ratio = (most + length) / (most - length)
+    before = np.flatnonzero(t <= at)
+    if not len(before):
+        return math.nan
+    away = np.abs(ratio / ratio[before[-1]] - 1.0) > RECOVERED
+    if away[-1]:
+        return math.nan
+    last = np.flatnonzero(away & (t > at))
+    return float(t[last[-1] + 1] - at) if len(last) else 0.0
+
+
+def misfires(
+    engine: Engine,
+    strokes: Sequence[int],
+    *,
+    at: float = 1.5,
+    duration: float = 4.0,
+    **settings: Any,
+) -> pd.DataFrame:
+    """How many strokes without fuel an engine survives, with the motor and without it (5.3).
+
+    Parameters
+    ----------
+    engine : Engine
+    strokes : sequence of int
+        Numbers of strokes without fuel.
+    at, duration : float
+        As for :func:`misfire`.
+    **settings
+        Further settings of :func:`saleg.control.simulate`.
+
+    Returns
+    -------
+    DataFrame
+        ``strokes``, ``motor``, ``survives``, ``recovery_time`` [s], ``least_compression_ratio``,
+        ``motor_returns``. Units in ``.attrs``.
+    """
+    import pandas as pd
+
+    rows = []
+    for motor in (True, False):
+        for count in strokes:
+            run = misfire(engine, strokes=count, at=at, motor=motor, duration=duration, **settings)
+            ratios = run.dead_centres.compression_ratio[run.dead_centres.t > at]
+            took = recovery_time(run, at)
+            rows.append(
+                {
+                    "strokes": count,
+                    "motor": motor,
+                    "survives": not math.isnan(took),
+                    "recovery_time": took,
+                    "least_compression_ratio": float(ratios.min()),
+                    "motor_returns": motor_returns(run),
+                }
+            )
+    frame = pd.DataFrame(rows)
+    frame.attrs["units"] = {name: "s" if name == "recovery_time" else "-" for name in frame}
+    return frame
