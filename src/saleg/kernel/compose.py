@@ -271,7 +271,10 @@ def _lengths(law: Law) -> Lengths:
     return tuple((name, len(getattr(law, name))) for name in _series_names(kind))
 
 
-#: Numbers of the laws that fill the slots of a controller where there is none.
+#: Line of the layout that says no controller is compiled in.
+NO_CONTROLLER = "HAS_CONTROLLER = 0\n"
+#: Classes and numbers of the laws that fill the slots of a controller where there is none.
+IDLE_CLASSES = tuple(type(law) for law in _control_laws(UNCONTROLLED))
 IDLE_NUMBERS = _numbers_of(_control_laws(UNCONTROLLED))
 
 
@@ -329,6 +332,8 @@ def compose(
             )
     parts += [_own_text(f"kernel/{name}.py") for name in modules]
     text = "\n".join(parts) + "\n"
+    if tuple(rest[len(ENGINE_SLOTS) :]) != IDLE_CLASSES:
+        text = text.replace(NO_CONTROLLER, NO_CONTROLLER.replace("0", "1"))
     _check_names(text)
     return text
 

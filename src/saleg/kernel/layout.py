@@ -103,6 +103,8 @@ EVENT_NAMES = (
 UNCONTROLLED = 0
 COMPILED = 1
 IN_PYTHON = 2
+# Whether a controller is compiled in: the composer sets it. What is never called is not compiled.
+HAS_CONTROLLER = 0
 # Parts of a controller that hold numbers, and how many each.
 CONTROL_PARTS = 5
 HELD = 4

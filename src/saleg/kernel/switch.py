@@ -30,6 +30,7 @@ from saleg.kernel.layout import (
     FRICTION_WORK,
     G0,
     GAS_WORK,
+    HAS_CONTROLLER,
     HEAD,
     HEAT_LOST,
     HEAT_RELEASED,
@@ -382,7 +383,7 @@ def turn(P, E, C, y, peaks, strokes, filled):
     for side in range(2):
         c = C[side]
         c.spent = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
-    if E.controlled == COMPILED:
+    if HAS_CONTROLLER and E.controlled == COMPILED:
         obey(P, E, C, decide(P, E.held, signals_of(E)), E.t - E.t_command)
 
 
