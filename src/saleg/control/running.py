@@ -30,7 +30,13 @@ if TYPE_CHECKING:
     import pandas as pd
 
 #: Columns of a table of runs under controllers.
-CONTROL_UNITS = {**RUN_UNITS, "fired_at": "s", "motor_returns": "-", "motored_share": "-"}
+CONTROL_UNITS = {
+    **RUN_UNITS,
+    "ports_open_at": "s",
+    "fired_at": "s",
+    "motor_returns": "-",
+    "motored_share": "-",
+}
 
 
 class Acts(Protocol):
@@ -228,9 +234,10 @@ def simulate_many(
     Returns
     -------
     DataFrame
-        One row per pair, in order: status, message, figures of the last cycle, ``fired_at``, when
-        the motor was first left [s], ``motor_returns``, how often it came back, and
-        ``motored_share``, the share of the strokes that were motored. Units in ``.attrs``.
+        One row per pair, in order: status, message, figures of the last cycle, ``ports_open_at``
+        and ``fired_at``, when ports first opened and when the motor was first left [s],
+        ``motor_returns``, how often it came back, and ``motored_share``, the share of the strokes
+        that were motored. Units in ``.attrs``.
     """
     one: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
     return table_of(one, pairs, CONTROL_UNITS, executor, workers, chunk, _kernel_of)
@@ -245,6 +252,7 @@ def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any
     run = simulate(pair[0], pair[1], duration, compiled=True, **settings)
     return {
         **run_row(run),
+        "ports_open_at": first_event(run, layout.EVENT_PORT_OPENING),
         "fired_at": fired_at(run),
         "motor_returns": float(motor_returns(run)),
         "motored_share": motored_share(run),
@@ -267,8 +275,13 @@ def fired_at(run: Run) -> float:
     -------
     float
     """
-    off = run.event_rows["t"][run.event_rows["kind"] == layout.EVENT_MOTOR_OFF]
-    return float(off[0]) if len(off) else math.nan
+    return first_event(run, layout.EVENT_MOTOR_OFF)
+
+
+def first_event(run: Run, kind: int) -> float:
+    """When an event of a kind of :mod:`saleg.kernel.layout` first happened [s]; NaN if never."""
+    instants = run.event_rows["t"][run.event_rows["kind"] == kind]
+    return float(instants[0]) if len(instants) else math.nan
 
 
 def motor_returns(run: Run) -> int:

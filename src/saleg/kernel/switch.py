@@ -396,6 +396,7 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
     """
     turns = landed == DEAD_CENTRE
     changed = False
+    was_motoring = E.motoring
     for _ in range(12):
         quiet = True
         for side in range(2):
@@ -408,15 +409,15 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
         if quiet and not turns:
             break
         if quiet:
-            was_motoring = E.motoring
             turn(P, E, C, y, peaks, strokes, filled)
             side = LEFT if E.direction > 0.0 else RIGHT
             record_event(E, C, O, y, kind_of_turn(landed), side, events, filled)
-            if E.motoring != was_motoring:
-                kind = EVENT_MOTOR_ON if E.motoring > 0.0 else EVENT_MOTOR_OFF
-                record_event(E, C, O, y, kind, side, events, filled)
             turns = False
             changed = True
+    if E.motoring != was_motoring:
+        kind = EVENT_MOTOR_ON if E.motoring > 0.0 else EVENT_MOTOR_OFF
+        side = LEFT if E.direction > 0.0 else RIGHT
+        record_event(E, C, O, y, kind, side, events, filled)
     if landed >= HEAD:
         record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, events, filled)
     if changed:
