@@ -18,14 +18,14 @@ from saleg.laws.controlling import (
 from saleg.laws.fuel_control import RatedFuel
 from saleg.laws.intake_control import RatedIntake
 from saleg.laws.load_control import StrokeRegulator
-from saleg.laws.motor_control import ResonanceSearch, SteadyMotor
-from saleg.laws.state_logic import CompressionThreshold, NeverMotored
+from saleg.laws.motor_control import ResonanceSearch
+from saleg.laws.state_logic import CompressionThreshold
 from saleg.quantities import Problem, problems
 
 
 @dataclass(frozen=True, kw_only=True)
 class Controller:
-    """A controller made of laws; compiled with the engine, or run as Python.
+    """A controller made of laws; compiled, or run as Python.
 
     The defaults are those of the dissertation's start-up (5.1).
 
@@ -60,7 +60,7 @@ class Controller:
     def problems(self) -> list[Problem]:
         """Every wrong field; empty when the controller is valid."""
         found = []
-        for slot, kind in CONTROL_SLOTS.items():
+        for slot, kind in {**CONTROL_SLOTS, ActuatorLaw.slot: ActuatorLaw}.items():
             part = getattr(self, slot)
             if isinstance(part, kind):
                 found += problems(part, slot)
@@ -79,7 +79,3 @@ class Controller:
         found = self.problems()
         if found:
             raise InvalidController(found)
-
-
-#: What fills the slots of an engine nobody controls.
-UNCONTROLLED = Controller(state_logic=NeverMotored(), motor_control=SteadyMotor())

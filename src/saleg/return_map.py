@@ -13,6 +13,7 @@ import numpy as np
 from saleg.engine import BounceChamber, Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.compose import Kernel, kernel_for, needs_motored_pressure, parameters
+from saleg.kernel.controllers import nobody
 from saleg.kernel.orbit import (
     CYCLE,
     DEPTH,
@@ -123,6 +124,7 @@ class ReturnMap:
             np.zeros(3, np.int64),
             snapshot,
             work_space(len(tableaus.ADAPTIVE.b)),
+            nobody(),
             np.zeros(1, layout.CHAMBER_RECORD),
         )
         return cls(engine, kernel_for(engine), state, mirrored, strokes, snapshot, run)

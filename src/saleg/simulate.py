@@ -15,6 +15,7 @@ from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout, tableaus
 from saleg.kernel.compose import kernel_for, needs_motored_pressure, parameters
+from saleg.kernel.controllers import control_of, nobody
 from saleg.prepare import State, prepare
 from saleg.quantities import is_number
 from saleg.records import Records
@@ -209,14 +210,17 @@ class Course:
             settings = replace(settings, motored_pressure=True)
         self.engine, self.state, self.settings = engine, state, settings
         self.controller = controller
-        self.kernel = kernel_for(engine, controller=controller)
+        actuators = controller.actuators if controller is not None else None
+        self.kernel = kernel_for(engine, actuators=actuators)
+        asks = controller is not None and state.engine["controlled"][0] == layout.COMPILED
+        self._control = control_of(controller) if asks and controller else nobody()
         self.options = options_record(settings, state.time + settings.duration)
         self.records = Records(bool(settings.history), settings.keep_cycles)
         self.snapshot = _snapshot(state)
         method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
         order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
         self._before = (
-            parameters(engine, controller),
+            parameters(engine, actuators),
             state.engine,
             state.chambers,
             state.y,
@@ -255,6 +259,7 @@ class Course:
             records.filled,
             self.snapshot,
             self._work,
+            self._control,
         )
         records.make_room()
         return int(code)

@@ -19,6 +19,7 @@ from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.compose import kernel_for, parameters
+from saleg.kernel.controllers import nobody
 from saleg.kernel.tableaus import FIXED_STEP
 from saleg.prepare import prepare
 from saleg.quantities import is_number
@@ -359,6 +360,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
             records.events,
             records.filled,
             work,
+            nobody(),
         )
         records.make_room()
     strokes = records.kept_strokes.joined()

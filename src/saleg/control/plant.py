@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from saleg.control.verdict import fault_message, verdict_of
-from saleg.controller import UNCONTROLLED, Controller
+from saleg.controller import Controller
 from saleg.engine import Engine
 from saleg.errors import ControllerError
 from saleg.kernel import layout
 from saleg.kernel.compose import check_laws
-from saleg.kernel.control import decide, obey, signals_of
+from saleg.kernel.control import obey, write_signals
+from saleg.kernel.decide import decide
+from saleg.laws.actuators import Actuators
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.controlling import ActuatorLaw
 from saleg.prepare import State, prepare
@@ -62,7 +64,7 @@ class Plant:
         actuators: ActuatorLaw | None = None,
         **settings: Any,
     ):
-        controller = replace(UNCONTROLLED, actuators=actuators or UNCONTROLLED.actuators)
+        controller = Controller(actuators=actuators or Actuators())
         self._begin(course_of(engine, controller, duration, layout.IN_PYTHON, settings))
 
     @classmethod
@@ -215,8 +217,9 @@ def course_of(
 
 def measured(state: State) -> Signals:
     """What is measured at a state."""
-    E, _ = state.records
-    return Signals(*(float(value) for value in signals_of(E)))
+    values = np.zeros(len(Signals._fields))
+    write_signals(state.records[0], values)
+    return Signals(*values.tolist())
 
 
 def give(course: Course, commands: Commands, first: bool) -> None:

@@ -18,6 +18,7 @@ from saleg.engine import Engine
 from saleg.errors import ControllerError
 from saleg.kernel import layout
 from saleg.kernel.compose import kernel_for
+from saleg.kernel.controllers import control_of
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.controlling import ActuatorLaw
 from saleg.quantities import is_number
@@ -132,7 +133,7 @@ def _compiled(engine: Engine, controller: Controller, duration: float, settings:
         give(course, parts.act(measured(course.state)), first=True)
     except ControllerError as error:
         return course.run(*verdict_of(course, 0, f"{type(controller).__name__}: {error}"))
-    course.state.engine["held"][0] = parts.held
+    course.state.engine["held"][0] = parts.held.ravel()
     code = course.go_on()
     return course.run(*verdict_of(course, code), course.replay())
 
@@ -244,7 +245,7 @@ def simulate_many(
 
 
 def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
-    return kernel_for(pair[0], controller=pair[1])
+    return kernel_for(pair[0], actuators=pair[1].actuators), control_of(pair[1])[0]
 
 
 def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any) -> Row:

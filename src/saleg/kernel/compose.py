@@ -24,22 +24,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.controller import UNCONTROLLED
 from saleg.errors import LawError
 from saleg.kernel import jit
 from saleg.kernel.cache import locked, usable_folder, write_atomically
 from saleg.kernel.powers import EXPONENTIAL
 from saleg.kernel.source import Borrowed, NoSource, check_law, fingerprint
-from saleg.laws import CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
+from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
-from saleg.laws.controlling import CONTROL_SLOTS
+from saleg.laws.controlling import CONTROL_SLOTS, ActuatorLaw
 
 if TYPE_CHECKING:
     from saleg.controller import Controller
     from saleg.engine import Chamber, Engine
 
 PACKAGE = Path(__file__).resolve().parent.parent
-BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py")
+BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py", "kernel/call_at.py")
 INTEGRATOR = (
     "rhs",
     "step",
@@ -59,6 +58,11 @@ IDLE_LAWS: dict[str, Law] = {
     "gas_exchange": InstantExchange(),
     "misfires": NoMisfires(),
 }
+
+#: What stands before an engine that nobody commands.
+IDLE_ACTUATORS = Actuators()
+#: Slots of the engine as a whole as the kernel has them.
+KERNEL_SLOTS: dict[str, type[Law]] = {**ENGINE_SLOTS, ActuatorLaw.slot: ActuatorLaw}
 
 #: Lengths of the series of numbers a law has, by name.
 Lengths = tuple[tuple[str, int], ...]
@@ -135,7 +139,8 @@ def laws_of(engine: Engine, controller: Controller | None = None) -> dict[str, d
         "engine": {name: getattr(engine, name) for name in ENGINE_SLOTS},
     }
     if controller is not None:
-        found["control"] = {name: getattr(controller, name) for name in CONTROL_SLOTS}
+        slots = (*CONTROL_SLOTS, ActuatorLaw.slot)
+        found["control"] = {name: getattr(controller, name) for name in slots}
     return found
 
 
@@ -161,46 +166,38 @@ def check_laws(engine: Engine, controller: Controller | None = None) -> None:
 def kernel_for(
     engine: Engine,
     modules: tuple[str, ...] = INTEGRATOR,
-    controller: Controller | None = None,
+    actuators: ActuatorLaw | None = None,
 ) -> Kernel:
-    """Compiled kernel for the laws of an engine and its controller.
+    """Compiled kernel for the laws of an engine and the actuators before it.
 
     Composed once per choice of laws, and anew when a law, or a helper or constant it uses, has
     been changed in this process, as in a notebook.
     """
-    laws = [*_all_laws(engine), *_control_laws(controller or UNCONTROLLED)]
+    laws = _all_laws(engine, actuators)
     classes = tuple(type(law) for law in laws)
-    state = tuple(fingerprint(law) for law in dict.fromkeys(classes) if not _is_ours(law))
-    return _load(classes, modules, tuple(_lengths(law) for law in laws), state)
+    state = tuple(fingerprint(law) for law in dict.fromkeys(classes) if not is_ours(law))
+    return _load(classes, modules, tuple(lengths_of(law) for law in laws), state)
 
 
-def _all_laws(engine: Engine) -> list[Law]:
+def _all_laws(engine: Engine, actuators: ActuatorLaw | None) -> list[Law]:
     """Laws of an engine in the order of its record."""
-    return [law for place in laws_of(engine).values() for law in place.values()]
+    laws = [law for place in laws_of(engine).values() for law in place.values()]
+    return [*laws, actuators or IDLE_ACTUATORS]
 
 
-def _control_laws(controller: Controller) -> list[Law]:
-    """Laws of a controller in the order of its record."""
-    return [getattr(controller, name) for name in CONTROL_SLOTS]
-
-
-def _is_ours(law: type[Law]) -> bool:
+def is_ours(law: type[Law]) -> bool:
     """Whether a law is one of the library's, which do not change while it is imported."""
     return law.__module__.startswith("saleg.laws.")
 
 
-def parameters(engine: Engine, controller: Controller | None = None) -> np.ndarray:
-    """All numbers of the laws of an engine and its controller as an array of one record."""
-    laws = _all_laws(engine)
-    control = _control_laws(controller or UNCONTROLLED)
-    numbers = IDLE_NUMBERS if controller is None else _numbers_of(control)
-    record = _record_of_all(
-        tuple(type(law) for law in (*laws, *control)), tuple(map(_lengths, (*laws, *control)))
-    )
-    return np.array([*_numbers_of(laws), *numbers], np.float64).view(record)
+def parameters(engine: Engine, actuators: ActuatorLaw | None = None) -> np.ndarray:
+    """All numbers of the laws of an engine and its actuators as an array of one record."""
+    laws = _all_laws(engine, actuators)
+    record = _record_of_all(tuple(type(law) for law in laws), tuple(map(lengths_of, laws)))
+    return np.array(numbers_of(laws), np.float64).view(record)
 
 
-def _numbers_of(laws: Sequence[Law]) -> list[float]:
+def numbers_of(laws: Sequence[Law]) -> list[float]:
     """Numbers of some laws in the order of their records."""
     flat: list[float] = []
     for law in laws:
@@ -219,12 +216,13 @@ def _record_of_all(classes: tuple[Any, ...], lengths: tuple[Lengths, ...]) -> np
     records = [_record(law, length) for law, length in zip(classes, lengths, strict=True)]
     n = len(CHAMBER_SLOTS)
     sides = [list(zip(CHAMBER_SLOTS, records[i : i + n], strict=True)) for i in (0, n)]
-    rest = list(zip((*ENGINE_SLOTS, *CONTROL_SLOTS), records[2 * n :], strict=True))
+    rest = list(zip(KERNEL_SLOTS, records[2 * n :], strict=True))
     return np.dtype([("left", sides[0]), ("right", sides[1]), *rest])
 
 
 @lru_cache(maxsize=256)
-def _names(law: Any) -> tuple[str, ...]:
+def names_of(law: Any) -> tuple[str, ...]:
+    """Names of the numbers of a law class, in the order of its record."""
     return tuple(item.name for item in dataclasses.fields(law))
 
 
@@ -237,7 +235,7 @@ def _series_names(law: Any) -> tuple[str, ...]:
 @lru_cache(maxsize=256)
 def _reader(law: Any) -> Callable[[Law], Any]:
     """What takes all numbers of a law of some class at once."""
-    names = _names(law)
+    names = names_of(law)
     return (
         attrgetter(*names) if len(names) > 1 else lambda one: tuple(getattr(one, n) for n in names)
     )
@@ -246,7 +244,7 @@ def _reader(law: Any) -> Callable[[Law], Any]:
 def record_of(law: Law) -> np.dtype:
     """Record that holds the numbers of a law; a series of numbers is an array in it."""
     kind: Any = type(law)
-    return _record(kind, _lengths(law))
+    return _record(kind, lengths_of(law))
 
 
 @lru_cache(maxsize=256)
@@ -254,7 +252,7 @@ def _record(law: Any, lengths: Lengths) -> np.dtype:
     long = dict(lengths)
     items = [
         (name, np.float64, (long[name],)) if name in long else (name, np.float64)
-        for name in _names(law)
+        for name in names_of(law)
     ]
     return np.dtype(items or [("nothing", np.float64)])
 
@@ -265,17 +263,10 @@ def values_of(law: Law) -> tuple[Any, ...]:
     return _reader(kind)(law) or (0.0,)
 
 
-def _lengths(law: Law) -> Lengths:
+def lengths_of(law: Law) -> Lengths:
     """How many numbers there are in each series of a law."""
     kind: Any = type(law)
     return tuple((name, len(getattr(law, name))) for name in _series_names(kind))
-
-
-#: Line of the layout that says no controller is compiled in.
-NO_CONTROLLER = "HAS_CONTROLLER = 0\n"
-#: Classes and numbers of the laws that fill the slots of a controller where there is none.
-IDLE_CLASSES = tuple(type(law) for law in _control_laws(UNCONTROLLED))
-IDLE_NUMBERS = _numbers_of(_control_laws(UNCONTROLLED))
 
 
 @lru_cache(maxsize=128)
@@ -288,7 +279,7 @@ def _load(
     """Compose, keep and import the kernel for a choice of law classes in a certain state."""
     n = len(CHAMBER_SLOTS)
     left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
-    own = [law.__name__ for law in dict.fromkeys(classes) if not _is_ours(law)]
+    own = [law.__name__ for law in dict.fromkeys(classes) if not is_ours(law)]
     try:
         text = compose(left, right, rest, modules)
     except NoSource:
@@ -296,11 +287,11 @@ def _load(
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     folder = usable_folder()
     if folder is None:
-        return Kernel(_execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None, own)
-    path = folder / f"saleg_kernel_{_digest(text)}.py"
+        return Kernel(execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None, own)
+    path = folder / f"saleg_kernel_{digest(text)}.py"
     if not path.is_file() or path.read_bytes() != text.encode():
         write_atomically(path, text)
-    return Kernel(_execute(text, str(path)), path.with_suffix(".lock"), own)
+    return Kernel(execute(text, str(path)), path.with_suffix(".lock"), own)
 
 
 def compose(
@@ -312,17 +303,16 @@ def compose(
 ) -> str:
     """Text of the composed module for the law classes of each place, in the order of the slots.
 
-    `rest` are the laws of the engine as a whole and of its controller.
+    `rest` are the laws of the engine as a whole, its actuators last.
     """
     parts = ["import math", "import numba", "import numpy as np", ""]
     parts += [f"from math import exp as {EXPONENTIAL}"]
     parts += [jit.COMPILED_HEADER + jit.CACHED_ON_DISK]
-    parts += [_own_text(name) for name in BEFORE_SLOTS]
+    parts += [own_text(name) for name in BEFORE_SLOTS]
     eases = "rhs" in modules
     for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
         parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
-    slots = {**ENGINE_SLOTS, **(CONTROL_SLOTS if "rhs" in modules else {})}
-    for (name, base), law in zip(slots.items(), rest, strict=False):
+    for (name, base), law in zip(KERNEL_SLOTS.items(), rest, strict=True):
         for method in base.compiled:
             parts += methods_text(law, method, f"engine_{name}", base, injected)
             arguments = ", ".join(_arguments(base, method))
@@ -330,10 +320,8 @@ def compose(
                 f"@inline\ndef {name}_{method}(P, {arguments}):\n"
                 f"    return engine_{name}_{method}(P.{name}, {arguments})\n"
             )
-    parts += [_own_text(f"kernel/{name}.py") for name in modules]
+    parts += [own_text(f"kernel/{name}.py") for name in modules]
     text = "\n".join(parts) + "\n"
-    if tuple(rest[len(ENGINE_SLOTS) :]) != IDLE_CLASSES:
-        text = text.replace(NO_CONTROLLER, NO_CONTROLLER.replace("0", "1"))
     _check_names(text)
     return text
 
@@ -430,7 +418,7 @@ def _arguments(base: type[Law], method: str) -> list[str]:
     return list(inspect.signature(getattr(base, method)).parameters)[1:]
 
 
-def _own_text(name: str) -> str:
+def own_text(name: str) -> str:
     """Text of one of our modules without its docstring and its imports from this package."""
     text = (PACKAGE / name).read_text(encoding="utf-8")
     lines = text.splitlines()
@@ -444,7 +432,7 @@ def _own_text(name: str) -> str:
     return f"# --- {name}\n" + "\n".join(kept) + "\n"
 
 
-def _digest(text: str) -> str:
+def digest(text: str) -> str:
     """Name of a text for this numba and this processor."""
     import llvmlite.binding
     import numba
@@ -453,7 +441,7 @@ def _digest(text: str) -> str:
     return hashlib.sha256(f"{machine}\n{text}".encode()).hexdigest()[:24]
 
 
-def _execute(text: str, filename: str, names: dict[str, Any] | None = None) -> types.ModuleType:
+def execute(text: str, filename: str, names: dict[str, Any] | None = None) -> types.ModuleType:
     """Run a module text under the given file name; nothing but this very text is executed."""
     stem = Path(filename).stem if filename.endswith(".py") else f"saleg_kernel_{id(text):x}"
     module = types.ModuleType(stem)
@@ -478,7 +466,7 @@ def _load_from_memory(
     """Kernel for laws whose source cannot be had: compiled from their bytecode, not kept."""
     injected: dict[str, Any] = {}
     text = _in_memory(compose(left, right, rest, modules, injected))
-    return Kernel(_execute(text, f"<saleg kernel {next(_numbers)}>", injected), None, own)
+    return Kernel(execute(text, f"<saleg kernel {next(_numbers)}>", injected), None, own)
 
 
 def _jitted(function: Callable[..., Any], seen: dict[int, Any] | None = None) -> Any:

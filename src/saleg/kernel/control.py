@@ -1,78 +1,60 @@
-"""What a controller sees and sets at a dead centre."""
+"""What a controller is shown and what it sets at a dead centre.
+
+A controller is compiled by itself (see :mod:`saleg.kernel.controllers`), so that another one needs
+no other kernel; `control` is the address of its function, its numbers, and scratch arrays for what
+it holds, is shown and commands.
+"""
 
 from math import pi
 
 from saleg.kernel.jit import compiled, inline
+from saleg.kernel.layout import CONTROL_PARTS, HELD
 from saleg.kernel.rhs import motor_angle
-from saleg.kernel.slots import (
-    actuators_follow,
-    actuators_refused,
-    fuel_control_equivalence_ratio,
-    intake_control_temperature,
-    load_control_weight,
-    motor_control_drive,
-    state_logic_motors,
-)
-from saleg.laws.arguments import Commands, Signals
-
-
-@inline
-def signals_of(E):
-    """What is measured at a dead centre."""
-    half = 0.5 * E.maximum_stroke
-    return Signals(
-        E.t,
-        E.x_dead_centre,
-        E.direction,
-        E.stroke,
-        (half + 0.5 * E.stroke) / (half - 0.5 * E.stroke),
-        0.5 / E.stroke_duration if E.stroke_duration > 0.0 else 0.0,
-        E.power,
-        E.regulated_weight,
-        E.motoring,
-        E.motoring,
-        E.maximum_stroke,
-        E.rated_equivalence_ratio,
-        E.rated_intake_temperature,
-    )
-
-
-@inline
-def with_motoring(s, motoring):
-    """The same signals with what the state logic has decided."""
-    return Signals(
-        s.t,
-        s.x,
-        s.direction,
-        s.stroke,
-        s.compression_ratio,
-        s.frequency,
-        s.power,
-        s.regulated_weight,
-        motoring,
-        s.was_motoring,
-        s.maximum_stroke,
-        s.rated_equivalence_ratio,
-        s.rated_intake_temperature,
-    )
+from saleg.kernel.slots import actuators_follow, actuators_refused, call_at
+from saleg.laws.arguments import Commands
 
 
 @compiled
-def decide(P, held, measured):
-    """Commands of the parts of the controller, each with the numbers it holds."""
-    motoring = state_logic_motors(P, held[0], measured)
-    signals = with_motoring(measured, motoring)
-    drive = motor_control_drive(P, held[1], signals)
+def write_signals(E, signals):
+    """What is measured at a dead centre, in the order of :class:`saleg.laws.Signals`."""
+    half = 0.5 * E.maximum_stroke
+    signals[0] = E.t
+    signals[1] = E.x_dead_centre
+    signals[2] = E.direction
+    signals[3] = E.stroke
+    signals[4] = (half + 0.5 * E.stroke) / (half - 0.5 * E.stroke)
+    signals[5] = 0.5 / E.stroke_duration if E.stroke_duration > 0.0 else 0.0
+    signals[6] = E.power
+    signals[7] = E.regulated_weight
+    signals[8] = E.motoring
+    signals[9] = E.motoring
+    signals[10] = E.maximum_stroke
+    signals[11] = E.rated_equivalence_ratio
+    signals[12] = E.rated_intake_temperature
+
+
+@compiled
+def ask(E, control):
+    """Commands of the controller; what it holds travels with the engine's record."""
+    address, numbers, held, signals, commands = control
+    write_signals(E, signals)
+    for n in range(CONTROL_PARTS * HELD):
+        held[n] = E.held[n]
+    call_at(
+        address, numbers.ctypes.data, held.ctypes.data, signals.ctypes.data, commands.ctypes.data
+    )
+    for n in range(CONTROL_PARTS * HELD):
+        E.held[n] = held[n]
     return Commands(
-        motoring,
-        load_control_weight(P, held[2], signals),
-        drive.amplitude,
-        drive.frequency,
-        drive.sweep,
-        drive.sets_phase,
-        drive.phase,
-        fuel_control_equivalence_ratio(P, held[3], signals),
-        intake_control_temperature(P, held[4], signals),
+        commands[0],
+        commands[1],
+        commands[2],
+        commands[3],
+        commands[4],
+        commands[5],
+        commands[6],
+        commands[7],
+        commands[8],
     )
 
 

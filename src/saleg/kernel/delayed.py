@@ -33,7 +33,7 @@ def lagging_rhs(P, E, C, t, y, dy, delay, late_force, motored):
 
 
 @cached
-def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled, work):
+def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled, work, control):
     """Run to the end with the gas force `delay` steps late.
 
     `forces` is a ring of the last gas forces, longer than the delay, filled with the first one.
@@ -67,7 +67,7 @@ def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled,
             E.direction = copysign(1.0, y[V])
         watch_point(C, y, k1, peaks)
         landed = DEAD_CENTRE if E.direction * y[V] < 0.0 else -1
-        switch(P, E, C, O, y, landed, peaks, strokes, events, filled)
+        switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control)
         short = E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke
         if landed == DEAD_CENTRE and short:
             return STALLED

@@ -197,7 +197,21 @@ def has_room(O, strokes, events, history, filled):
 
 @cached
 def run_on(
-    P1, E1, C, y, peaks, tableau, order, O1, strokes, events, history, filled, snapshot, work
+    P1,
+    E1,
+    C,
+    y,
+    peaks,
+    tableau,
+    order,
+    O1,
+    strokes,
+    events,
+    history,
+    filled,
+    snapshot,
+    work,
+    control,
 ):
     """Integrate until the end, a buffer is full, or nothing more can be done.
 
@@ -210,7 +224,8 @@ def run_on(
     spare[4][N_PEAKS] = 0.0
     last_step = E.steps + O.max_steps
     refresh(P, E, C, y)
-    switch(P, E, C, O, y, -1, peaks, strokes, events, filled)  # what is due at the start
+    # What is due at the start.
+    switch(P, E, C, O, y, -1, peaks, strokes, events, filled, control)
     rhs(P, E, C, E.t, y, k[0], O.motored)
     E.evaluations += 1.0
     if peaks[PEAK_PRESSURE] == 0.0:  # nothing of this stroke has been watched yet
@@ -240,7 +255,7 @@ def run_on(
         if O.history > 0 and (landed >= 0 or E.steps % O.history < 1.0):
             observe(P, E, C, y, k[0], O.motored, history[filled[2]])
             filled[2] += 1
-        if switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
+        if switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control):
             spare[4][N_PEAKS] = 0.0
             rhs(P, E, C, E.t, y, k[0], O.motored)
             E.evaluations += 1.0

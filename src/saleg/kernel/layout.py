@@ -103,8 +103,6 @@ EVENT_NAMES = (
 UNCONTROLLED = 0
 COMPILED = 1
 IN_PYTHON = 2
-# Whether a controller is compiled in: the composer sets it. What is never called is not compiled.
-HAS_CONTROLLER = 0
 # Parts of a controller that hold numbers, and how many each.
 CONTROL_PARTS = 5
 HELD = 4
@@ -165,7 +163,7 @@ ENGINE_RECORD = np.dtype(
             "intake_temperature",
         )
     ]
-    + [("held", np.float64, (CONTROL_PARTS, HELD))]
+    + [("held", np.float64, (CONTROL_PARTS * HELD,))]
 )
 
 #: One chamber: geometry and intake, then what stands in it, then what the stroke has seen so far.

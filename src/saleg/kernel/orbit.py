@@ -171,9 +171,24 @@ def distance(a, b):
 @compiled
 def next_return(run, strokes_per_map, mirrored):
     """Go on to the dead centre at which the map is taken; returns why the integrator came back."""
-    P1, E1, C, y, peaks, tableau, order, O1, rows, events, history, filled, snapshot, work, one = (
-        run
-    )
+    (
+        P1,
+        E1,
+        C,
+        y,
+        peaks,
+        tableau,
+        order,
+        O1,
+        rows,
+        events,
+        history,
+        filled,
+        snapshot,
+        work,
+        control,
+        one,
+    ) = run
     E, O = E1[0], O1[0]
     wanted = E.strokes + strokes_per_map
     O.last_stroke = wanted
@@ -181,7 +196,21 @@ def next_return(run, strokes_per_map, mirrored):
     filled[0] = 0
     filled[1] = 0
     code = run_on(
-        P1, E1, C, y, peaks, tableau, order, O1, rows, events, history, filled, snapshot, work
+        P1,
+        E1,
+        C,
+        y,
+        peaks,
+        tableau,
+        order,
+        O1,
+        rows,
+        events,
+        history,
+        filled,
+        snapshot,
+        work,
+        control,
     )
     if code == END_OF_TIME and E.strokes < wanted:
         return NO_DEAD_CENTRE

@@ -4,6 +4,7 @@ In a composed module this file is replaced by the compiled laws and `P` is a rec
 numbers; the names and arguments are the same.
 """
 
+from ctypes import CFUNCTYPE, c_void_p
 from typing import Any
 
 from saleg.kernel.aid import Aid
@@ -133,6 +134,11 @@ def alternator_current_rate(P: Any, held: float, motion: Motion) -> float:
 def alternator_electrical_power(P: Any, held: float, motion: Motion) -> float:
     """Electrical power."""
     return P.alternator.electrical_power(held, motion)
+
+
+def call_at(address: int, numbers: int, held: int, signals: int, commands: int) -> None:
+    """Call a controller by its address."""
+    CFUNCTYPE(None, *[c_void_p] * 4)(address)(numbers, held, signals, commands)
 
 
 def state_logic_motors(P: Any, held: Any, signals: Signals) -> float:

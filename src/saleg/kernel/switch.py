@@ -2,7 +2,7 @@
 
 from math import isfinite, log
 
-from saleg.kernel.control import decide, obey, signals_of
+from saleg.kernel.control import ask, obey
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
@@ -30,7 +30,6 @@ from saleg.kernel.layout import (
     FRICTION_WORK,
     G0,
     GAS_WORK,
-    HAS_CONTROLLER,
     HEAD,
     HEAT_LOST,
     HEAT_RELEASED,
@@ -367,7 +366,7 @@ def change_mode(P, E, C, O, side, y, kind):
 
 
 @compiled
-def turn(P, E, C, y, peaks, strokes, filled):
+def turn(P, E, C, y, peaks, strokes, filled, control):
     """Dead centre: close the books of the stroke, let the regulators act, turn around."""
     if isfinite(E.x_dead_centre) and E.t > E.t_dead_centre:
         write_stroke(P, E, C, y, peaks, strokes[filled[0]])
@@ -383,12 +382,12 @@ def turn(P, E, C, y, peaks, strokes, filled):
     for side in range(2):
         c = C[side]
         c.spent = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
-    if HAS_CONTROLLER and E.controlled == COMPILED:
-        obey(P, E, C, decide(P, E.held, signals_of(E)), E.t - E.t_command)
+    if E.controlled == COMPILED:
+        obey(P, E, C, ask(E, control), E.t - E.t_command)
 
 
 @compiled
-def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
+def switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control):
     """Do all that is due at the present instant; returns whether anything was.
 
     Chambers change first, one after the other, then the translator turns, which may make further
@@ -409,7 +408,7 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled):
         if quiet and not turns:
             break
         if quiet:
-            turn(P, E, C, y, peaks, strokes, filled)
+            turn(P, E, C, y, peaks, strokes, filled, control)
             side = LEFT if E.direction > 0.0 else RIGHT
             record_event(E, C, O, y, kind_of_turn(landed), side, events, filled)
             turns = False

@@ -1,7 +1,7 @@
-"""Parts of a controller as laws: what is compiled beside the engine and acts at dead centres.
+"""Parts of a controller as laws: compiled by themselves, asked by the kernel at dead centres.
 
-A controller in the kernel has five parts and stands behind actuators. Each part may keep
-:data:`HELD` numbers in `held` from one dead centre to the next; they begin at zero.
+A controller has five parts and stands behind actuators. Each part may keep :data:`HELD` numbers in
+`held` from one dead centre to the next; they begin at zero.
 """
 
 from __future__ import annotations
@@ -91,6 +91,5 @@ class ActuatorLaw(Law):
 
 #: Slots of a controller, by name, in the order they are asked.
 CONTROL_SLOTS: dict[str, type[Law]] = {
-    law.slot: law
-    for law in (StateLogic, MotorControl, LoadControl, FuelControl, IntakeControl, ActuatorLaw)
+    law.slot: law for law in (StateLogic, MotorControl, LoadControl, FuelControl, IntakeControl)
 }
