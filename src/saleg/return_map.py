@@ -79,7 +79,7 @@ class ReturnMap:
     snapshot : tuple of ndarray
         States at the last two left dead centres.
     run : tuple
-        Arguments of the compiled functions.
+        Arguments of the integrator, its address, and a spare chamber.
     """
 
     engine: Engine
@@ -109,7 +109,7 @@ class ReturnMap:
             np.zeros((2, 2), layout.CHAMBER_RECORD),
             np.zeros((2, layout.N_ALL)),
         )
-        run = (
+        arguments = (
             parameters(engine),
             state.engine,
             state.chambers,
@@ -125,9 +125,11 @@ class ReturnMap:
             snapshot,
             work_space(len(tableaus.ADAPTIVE.b)),
             nobody(),
-            np.zeros(1, layout.CHAMBER_RECORD),
         )
-        return cls(engine, kernel_for(engine), state, mirrored, strokes, snapshot, run)
+        kernel = kernel_for(engine)
+        address = kernel.address("run_on", arguments)
+        run = (arguments, address, np.zeros(1, layout.CHAMBER_RECORD))
+        return cls(engine, kernel, state, mirrored, strokes, snapshot, run)
 
     @property
     def strokes_per_map(self) -> float:

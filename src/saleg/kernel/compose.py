@@ -87,6 +87,7 @@ class Kernel:
         self.module = module
         self._lock = lock
         self._laws = laws
+        self._addresses: dict[str, int] = {}
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.module, name)
@@ -98,6 +99,21 @@ class Kernel:
             with locked(self._lock) if self._lock else nullcontext():
                 self._compile(function, arguments)
         return function(*arguments)
+
+    def address(self, name: str, arguments: tuple[Any, ...]) -> int:
+        """Address of an entry point for arguments of these types, compiled if need be."""
+        if name not in self._addresses:
+            from numba import typeof
+
+            function = getattr(self.module, name)
+            signature = tuple(typeof(argument) for argument in arguments)
+            if signature not in function.overloads:
+                with locked(self._lock) if self._lock else nullcontext():
+                    self._compile(function, arguments)
+            made = function.overloads[signature]
+            symbol = made.fndesc.llvm_func_name
+            self._addresses[name] = int(made.library.get_pointer_to_function(symbol))
+        return self._addresses[name]
 
     def _compile(self, function: Any, arguments: tuple[Any, ...]) -> None:
         """Compile an entry point or load it; what is damaged on disk is compiled afresh."""

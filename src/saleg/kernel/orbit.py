@@ -7,7 +7,7 @@ itself, seen in the mirror, after half a cycle.
 
 from math import exp, inf, isfinite, log
 
-from saleg.kernel.integrate import keep_snapshot, run_on
+from saleg.kernel.integrate import keep_snapshot
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
     BURNING,
@@ -26,6 +26,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.rhs import height_of
+from saleg.kernel.slots import run_at
 from saleg.kernel.switch import begin_stroke
 
 # What do_orbit is asked for.
@@ -171,47 +172,15 @@ def distance(a, b):
 @compiled
 def next_return(run, strokes_per_map, mirrored):
     """Go on to the dead centre at which the map is taken; returns why the integrator came back."""
-    (
-        P1,
-        E1,
-        C,
-        y,
-        peaks,
-        tableau,
-        order,
-        O1,
-        rows,
-        events,
-        history,
-        filled,
-        snapshot,
-        work,
-        control,
-        one,
-    ) = run
+    given, address, one = run
+    E1, C, y, O1, filled = given[1], given[2], given[3], given[7], given[11]
     E, O = E1[0], O1[0]
     wanted = E.strokes + strokes_per_map
     O.last_stroke = wanted
     O.t_end = E.t + O.longest
     filled[0] = 0
     filled[1] = 0
-    code = run_on(
-        P1,
-        E1,
-        C,
-        y,
-        peaks,
-        tableau,
-        order,
-        O1,
-        rows,
-        events,
-        history,
-        filled,
-        snapshot,
-        work,
-        control,
-    )
+    code = run_at(address, given)
     if code == END_OF_TIME and E.strokes < wanted:
         return NO_DEAD_CENTRE
     if mirrored and code == END_OF_TIME:
@@ -298,10 +267,10 @@ def verified(run, vectors, found):
     goes into the snapshot; `found[2]` is how far the cycle misses it.
     """
     z, image = vectors[0], vectors[2]
-    E1, C, y, snapshot, O = run[1], run[2], run[3], run[12], run[7][0]
+    E1, C, y, snapshot, O = run[0][1], run[0][2], run[0][3], run[0][12], run[0][7][0]
     write_vector(E1[0], C, y, z)
     keep_snapshot(E1, C, y, snapshot)
-    begin_stroke(E1[0], C, y, run[4])
+    begin_stroke(E1[0], C, y, run[0][4])
     O.peaks = 2
     code = next_return(run, 2.0, False)
     O.peaks = 0
@@ -335,7 +304,7 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
     the integrator, or that nothing was found in `most` maps.
     """
     z, f, image, z_old, f_old, gram = vectors
-    E1, C, y = run[1], run[2], run[3]
+    E1, C, y = run[0][1], run[0][2], run[0][3]
     E = E1[0]
     write_vector(E, C, y, z)
     same_modes(C, modes)
@@ -345,7 +314,7 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
         if code != END_OF_TIME:
             return code
         found[0] += 1.0
-        resize(E, run[8], int(strokes_per_map))
+        resize(E, run[0][8], int(strokes_per_map))
         write_vector(E, C, y, image)
         alike = same_modes(C, modes)
         found[1] = distance(image, z)
@@ -372,7 +341,7 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
 @compiled
 def cycle_from(run, vectors, found):
     """One whole cycle from the first of the vectors, as :func:`verified` takes it."""
-    E1, C, y = run[1], run[2], run[3]
+    E1, C, y = run[0][1], run[0][2], run[0][3]
     read_vector(E1[0], C, y, vectors[0])
     return verified(run, vectors, found)
 
@@ -380,9 +349,9 @@ def cycle_from(run, vectors, found):
 @compiled
 def image_of(run, strokes_per_map, mirrored, vectors):
     """Image of the first vector, in the third; the modes are those of the records."""
-    E1, C, y = run[1], run[2], run[3]
+    E1, C, y = run[0][1], run[0][2], run[0][3]
     read_vector(E1[0], C, y, vectors[0])
-    begin_stroke(E1[0], C, y, run[4])
+    begin_stroke(E1[0], C, y, run[0][4])
     code = next_return(run, strokes_per_map, mirrored)
     write_vector(E1[0], C, y, vectors[2])
     return code
