@@ -70,8 +70,8 @@ def motored(
     -------
     DataFrame
         One row per run: ``motor_frequency``, ``motor_amplitude``, ``stroke``,
-        ``relative_stroke`` (over the maximum), ``compression_ratio``, ``opens_ports``,
-        ``status``, ``message``. Units in ``.attrs``.
+        ``relative_stroke`` (over the maximum), ``compression_ratio``, ``opens_ports`` when
+        settled, ``opened_ports`` at any time, ``status``, ``message``. Units in ``.attrs``.
     """
     import pandas as pd
 
@@ -89,7 +89,6 @@ def motored(
         duration,
         executor=executor,
         rtol=1e-6,
-        keep_cycles=50,
     )
     most = engine.maximum_stroke
     ports = min(
@@ -103,6 +102,7 @@ def motored(
             "relative_stroke": table.stroke / most,
             "compression_ratio": table.compression_ratio,
             "opens_ports": 0.5 * table.stroke > ports,
+            "opened_ports": table.farthest > ports,
             "status": table.status,
             "message": table.message,
         }

@@ -30,7 +30,13 @@ if TYPE_CHECKING:
     import pandas as pd
 
 #: Columns of a table of runs under controllers.
-CONTROL_UNITS = {**RUN_UNITS, "fired_at": "s", "motor_returns": "-", "motored_share": "-"}
+CONTROL_UNITS = {
+    **RUN_UNITS,
+    "fired_at": "s",
+    "motor_returns": "-",
+    "motored_share": "-",
+    "farthest": "m",
+}
 
 
 class Acts(Protocol):
@@ -229,8 +235,9 @@ def simulate_many(
     -------
     DataFrame
         One row per pair, in order: status, message, figures of the last cycle, ``fired_at``, when
-        the motor was first left [s], ``motor_returns``, how often it came back, and
-        ``motored_share``, the share of the strokes that were motored. Units in ``.attrs``.
+        the motor was first left [s], ``motor_returns``, how often it came back,
+        ``motored_share``, the share of the strokes that were motored, and ``farthest``, the
+        greatest distance of a dead centre from the midpoint [m]. Units in ``.attrs``.
     """
     one: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
     return table_of(one, pairs, CONTROL_UNITS, executor, workers, chunk, _kernel_of)
@@ -248,6 +255,7 @@ def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any
         "fired_at": fired_at(run),
         "motor_returns": float(motor_returns(run)),
         "motored_share": motored_share(run),
+        "farthest": float(np.abs(run.strokes["x_end"]).max(initial=0.0)),
     }
 
 
