@@ -19,6 +19,7 @@ Examples
 """
 
 from saleg.plotting import control, sensitivity, studies
+from saleg.plotting.animation import AnimationError, animate
 from saleg.plotting.control import controlled
 from saleg.plotting.cycle import NoCycle
 from saleg.plotting.energy import energy_pie
@@ -52,9 +53,11 @@ __all__ = [
     "LEFT_COLOUR",
     "RIGHT_COLOUR",
     "TRANSLATOR_COLOUR",
+    "AnimationError",
     "NoCycle",
     "Plots",
     "acceleration_velocity",
+    "animate",
     "approach_to_steady_state",
     "control",
     "controlled",
