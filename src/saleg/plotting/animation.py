@@ -93,9 +93,7 @@ def animate(
     >>> saleg.plotting.animate(run, "engine.gif")  # doctest: +SKIP
     """
     path = Path(path)
-    write = WRITERS.get(path.suffix.lower())
-    if write is None:
-        raise AnimationError(f"{path}: must end in {' or '.join(WRITERS)}")
+    check_suffix(path)
     _within("frames", frames, FRAMES)
     _within("width", width, WIDTHS)
     _within("rate", rate, RATES)
@@ -103,8 +101,14 @@ def animate(
         raise AnimationError(f"frames = {frames!r}: must be a whole number")
     film = _Film.of(run, window, int(frames), float(rate), float(width))
     with new_file(path, overwrite) as temporary:
-        write(film, temporary)
+        WRITERS[path.suffix.lower()](film, temporary)
     return path
+
+
+def check_suffix(path: Path) -> None:
+    """Raise an :class:`AnimationError` unless the file has a suffix that is known."""
+    if path.suffix.lower() not in WRITERS:
+        raise AnimationError(f"{path}: must end in {' or '.join(WRITERS)}")
 
 
 def _within(name: str, value: float, limits: tuple[float, float]) -> None:
