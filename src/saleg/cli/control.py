@@ -141,15 +141,16 @@ def _report(options: argparse.Namespace, experiment: Experiment, engine: Engine,
     head = [f"{options.experiment}: {experiment.summary}"]
     if done.run is not None:
         head.append(f"{done.run.engine.name}: {done.run.status} - {done.run.message}")
-    return "\n".join([*head, "", *_aligned(experiment.report(done), beside)])
+    lines = experiment.report(done) if done.moved else []
+    return "\n\n".join(["\n".join(head), "\n".join(_aligned(lines, beside))]).rstrip()
 
 
 def _aligned(lines: list[Line], beside: bool) -> list[str]:
-    """Lines of a report as columns; the dissertation's only for its engine, if it says something."""
+    """Lines of a report as columns; with those of the dissertation if it says something."""
     rows: list[tuple[str, str, str]] = [("", "here", "dissertation"), *lines]
     if not beside or not any(line.dissertation for line in lines):
         rows = [(line.what, line.here, "") for line in lines]
-    first, second = (max(len(row[column]) for row in rows) for column in (0, 1))
+    first, second = (max((len(row[column]) for row in rows), default=0) for column in (0, 1))
     return [f"  {what:<{first}}  {here:<{second}}  {said}".rstrip() for what, here, said in rows]
 
 
@@ -162,7 +163,7 @@ def _known() -> tuple[str, ...]:
 
 
 def _write(folder: Path, engine: Engine, experiment: Experiment, done: Done) -> list[str]:
-    """Write engine, tables and pictures; returns the names of the files."""
+    """Write engine, tables and, of what moved, pictures; returns the names of the files."""
     from saleg.export.csv_folder import write_text
     from saleg.plotting import control as draw
 
@@ -172,7 +173,7 @@ def _write(folder: Path, engine: Engine, experiment: Experiment, done: Done) -> 
         write_frame(folder / "cycles.csv", done.run.cycles)
     if done.table is not None:
         write_frame(folder / "results.csv", done.table)
-    for name, picture in experiment.pictures.items():
+    for name, picture in experiment.pictures.items() if done.moved else ():
         np.ravel(picture(draw, done))[0].figure.savefig(folder / name)
     return [name for name in _known() if (folder / name).exists()]
 

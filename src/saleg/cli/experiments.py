@@ -66,6 +66,11 @@ class Done:
     also: dict[str, Any] = field(default_factory=dict)
 
     @property
+    def moved(self) -> bool:
+        """Whether there is anything to draw and report; not after a run without a full cycle."""
+        return self.run is None or len(self.run.cycles) > 0
+
+    @property
     def one(self) -> Run:
         """The run of an experiment that is one."""
         assert self.run is not None
@@ -111,7 +116,7 @@ def _seconds(value: float) -> str:
 
 
 def _kilowatts(value: float) -> str:
-    return f"{1e-3 * value:.2f} kW"
+    return f"{round(1e-3 * value, 2) + 0.0:.2f} kW"
 
 
 def _state_at(run: Run, t: float) -> pd.Series:

@@ -196,8 +196,8 @@ def _motored(
         panel.plot(at, values(ordered, name), color=TRANSLATOR_COLOUR, **look)
         for column, (text, alpha) in PORTS.items():
             _shade(panel, at, ordered[column].to_numpy(dtype=bool), label=text, alpha=alpha)
-        panel.set_ylabel(label(ordered, name))
-        panel.set_xlim(at[0], at[-1])
+        panel.set_ylabel(label(ordered, name).replace("stroke over maximum", "relative"))
+        panel.margins(x=0.0)
         finish(panel, "", None)
     panels[0].set_ylim(0.0, 1.08 * panels[0].dataLim.ymax)
     panels[1].set_ylim(1.0, 1.0 + 1.08 * (panels[1].dataLim.ymax - 1.0))
@@ -230,5 +230,4 @@ def _fill(panel: Axes, table: pd.DataFrame, names: tuple[str, str, str], good: n
     if np.isfinite(grid).any() and min(grid.shape) > 1:
         filled = panel.contourf(columns, rows, np.ma.masked_invalid(grid), levels=14)
         panel.figure.colorbar(filled, ax=panel)
-    panel.set_xlim(columns[0], columns[-1])
-    panel.set_ylim(rows[0], rows[-1])
+    panel.margins(0.0)
