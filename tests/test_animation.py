@@ -80,6 +80,7 @@ def test_dimensions_are_the_engine_s(base):
         ("a.gif", {"width": 100.0}, "width = 100.0: must be a number from 4 to 16"),
         ("a.gif", {"rate": math.nan}, "rate = nan"),
         ("a.gif", {"window": (0.0, 0.1)}, "history=1"),
+        ("a.gif", {"window": (0.0, "1")}, "must be two times"),
     ],
 )
 def test_mistakes(base_run, tmp_path, name, settings, message):

@@ -280,6 +280,8 @@ def _shown(run: Run, window: tuple[float, float] | None) -> tuple[pd.DataFrame, 
     """What is shown, and whether its end is its beginning."""
     if window is None:
         return last_cycle(run).history, True
+    if len(window) != 2 or not all(is_number(t) for t in window):
+        raise AnimationError(f"window = {window!r}: must be two times [s]")
     begin, end = window
     if run.history is None:
         raise AnimationError("the run has no history for a window; simulate it with history=1")

@@ -2,54 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from saleg.control.demand import Demand
-from saleg.control.moments import first_misfire, fuel_cuts, late_ignitions, motored_times
 from saleg.control.running import fired_at
-from saleg.plotting.cycle import NoCycle, titled
+from saleg.plotting.control.curves import (
+    COMMANDS,
+    check,
+    draw,
+    draw_moments,
+    draw_peaks,
+    finished,
+)
 from saleg.plotting.style import (
-    ALTERNATOR_COLOUR,
-    COINCIDING,
-    COLOURS,
-    MARKERS,
     RIGHT_COLOUR,
     TRANSLATOR_COLOUR,
     axes_or_new,
     finish,
-    legend_below,
     marker,
+    new_figure,
     panels_or_new,
-    zero_lines,
 )
-from saleg.plotting.sweeps import label, values
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.results import Run
 
-#: What is commanded, and holds from one dead centre to the next; all else is measured there.
-COMMANDS = ("motor_frequency", "load_weight", "equivalence_ratio", "intake_temperature")
-MOTOR_COLOUR = "#AA4499"
-#: Colours of what belongs to neither the translator nor a side.
-CURVES = {
-    "power": ALTERNATOR_COLOUR,
-    "load_weight": ALTERNATOR_COLOUR,
-    "motor_frequency": MOTOR_COLOUR,
-    "equivalence_ratio": RIGHT_COLOUR,
-    "intake_temperature": RIGHT_COLOUR,
-}
-#: These are read by their change, so their axis does not begin at zero.
-NOT_FROM_ZERO = ("frequency", "motor_frequency", "intake_temperature")
-#: What is beyond this many times the 95th percentile of a curve has run away.
-RUNS_AWAY = 3.0
-#: A compression ratio beyond the first is that of a piston about to hit the head; the axis then
-#: ends at the second.
-MOST_COMPRESSION = 100.0, 40.0
 #: Relative change below which a command counts as constant.
 CONSTANT = 1e-3
 
@@ -75,14 +57,14 @@ def start_up(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
     NoCycle
         If the run completed no full cycle.
     """
-    _check(run)
+    check(run)
     panels = panels_or_new(ax, (3, 2), 10.0, 6.0, sharex=True)
     for panel, name in zip(panels[::2], COMMANDS[:3], strict=True):
-        _draw(panel, run, name)
-    _draw_peaks(panels[1], run, "peak_pressure", "peak pressure")
-    _draw_peaks(panels[3], run, "peak_temperature", "peak temperature")
-    _draw(panels[5], run, "compression_ratio")
-    return _finished(panels, run, "Start-up", columns=2)
+        draw(panel, run, name)
+    draw_peaks(panels[1], run, "peak_pressure", "peak pressure")
+    draw_peaks(panels[3], run, "peak_temperature", "peak temperature")
+    draw(panels[5], run, "compression_ratio")
+    return finished(panels, run, "Start-up", columns=2)
 
 
 def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
@@ -103,14 +85,14 @@ def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
     NoCycle
         If the run completed no full cycle.
     """
-    _check(run)
+    check(run)
     panels = panels_or_new(ax, (2, 1), 6.8, 5.2, sharex=True)
     at = fired_at(run)
     for panel, name in zip(panels, ("compression_ratio", "stroke"), strict=True):
-        _draw(panel, run, name)
+        draw(panel, run, name)
         if not np.isnan(at):
             panel.axvline(at, color=RIGHT_COLOUR, linestyle="--", label=f"fired at {at:.2f} s")
-    return _finished(panels, run, "Start-up")
+    return finished(panels, run, "Start-up")
 
 
 def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
@@ -140,8 +122,8 @@ def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
     for colour, (frequency, run) in zip(
         colormaps["plasma"](np.linspace(0.0, 0.75, len(ordered))), ordered, strict=True
     ):
-        _check(run)
-        _draw(ax, run, "compression_ratio", color=colour, label=f"{frequency:g} Hz")
+        check(run)
+        draw(ax, run, "compression_ratio", color=colour, label=f"{frequency:g} Hz")
         if np.isnan(fired_at(run)):
             unfired.append((f"{frequency:g} Hz: never fired", colour))
         else:
@@ -178,16 +160,16 @@ def demand(run: Run, wanted: Demand, ax: Sequence[Axes] | np.ndarray | None = No
     NoCycle
         If the run completed no full cycle.
     """
-    _check(run)
+    check(run)
     panels = _demand_panels() if ax is None else panels_or_new(ax, (5, 1), 0.0, 0.0)
     names = ("power", "load_weight", "compression_ratio", "frequency", _varied(run))
     for panel, name in zip(panels, names, strict=True):
-        _draw(panel, run, name)
+        draw(panel, run, name)
     times = [0.0, *wanted.times, max(run.duration, wanted.times[-1])]
     powers = 1e-3 * np.array([wanted.powers[0], *wanted.powers, wanted.powers[-1]])
     look: dict[str, Any] = {"color": TRANSLATOR_COLOUR, "linestyle": "--", "linewidth": 1.2}
     panels[0].plot(times, powers, label="demand", **look)
-    return _finished(panels, run, "Demand for power", legend_on=panels[0])
+    return finished(panels, run, "Demand for power", legend_on=panels[0])
 
 
 def duty_cycle(
@@ -222,18 +204,18 @@ def duty_cycle(
     NoCycle
         If the run completed no full cycle.
     """
-    _check(run)
+    check(run)
     rows = 3 if gas else 2
     panels = panels_or_new(ax, (rows, 2), 10.0, 2.1 * rows + 0.8, sharex=True)
     for panel, name in zip(
         panels, ("compression_ratio", "stroke", "frequency", "power"), strict=False
     ):
-        _draw(panel, run, name)
+        draw(panel, run, name)
     if gas:
-        _draw_peaks(panels[4], run, "peak_pressure", "peak pressure")
-        _draw_peaks(panels[5], run, "peak_temperature", "peak temperature")
-    _draw_moments(panels, run)
-    _finished(panels, run, "Duty cycle", columns=2)
+        draw_peaks(panels[4], run, "peak_pressure", "peak pressure")
+        draw_peaks(panels[5], run, "peak_temperature", "peak temperature")
+    draw_moments(panels, run)
+    finished(panels, run, "Duty cycle", columns=2)
     if window is not None:
         for panel in panels:
             panel.set_xlim(*window)
@@ -261,93 +243,15 @@ def controlled(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.nd
     NoCycle
         If the run completed no full cycle.
     """
-    _check(run)
+    check(run)
     panels = panels_or_new(ax, (4, 2), 10.0, 7.8, sharex=True)
     measured = ("compression_ratio", "stroke", "frequency", "power")
     for panel, name in zip(panels[::2], measured, strict=True):
-        _draw(panel, run, name)
+        draw(panel, run, name)
     for panel, name in zip(panels[1::2], COMMANDS, strict=True):
-        _draw(panel, run, name)
-    _draw_moments(panels, run)
-    return _finished(panels, run, "Under control", columns=2)
-
-
-def _check(run: Run) -> None:
-    if len(run.cycles) == 0:
-        raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
-
-
-def _draw(ax: Axes, run: Run, name: str, **look: Any) -> None:
-    """A column of the dead centres over time, on an axis that what runs away does not stretch."""
-    table = run.dead_centres
-    time, drawn = table["t"].to_numpy(), values(table, name)
-    if name == "motor_frequency":
-        drawn = np.where(table["motoring"], drawn, np.nan)
-    line: dict[str, Any] = {"drawstyle": "steps-pre"} if name in COMMANDS else {}
-    chosen = {"color": CURVES.get(name, TRANSLATOR_COLOUR), "linewidth": 1.4, "label": f"_{name}"}
-    ax.plot(time, drawn, **line, **{**chosen, **look})
-    ax.set_ylabel(label(table, name))
-    _limit(ax, name, time, drawn)
-
-
-def _draw_peaks(ax: Axes, run: Run, name: str, text: str) -> None:
-    """Peaks of either cylinder in every cycle."""
-    cycles = run.cycles
-    time = (cycles["t"] + cycles["period"]).to_numpy()
-    for side, colour in COLOURS.items():
-        column, look = f"{name}_{side}", COINCIDING[side]
-        line: dict[str, Any] = {"linestyle": look.line, "linewidth": look.width, "color": colour}
-        ax.plot(time, values(cycles, column), label=side, **line)
-    unit = label(cycles, f"{name}_left").partition("[")[2]
-    ax.set_ylabel(f"{text} [{unit}")
-    both = [values(cycles, f"{name}_{side}") for side in COLOURS]
-    _limit(ax, name, time, np.maximum(*both))
-
-
-def _limit(ax: Axes, name: str, time: np.ndarray, drawn: np.ndarray) -> None:
-    """An upward axis around all that is drawn, except what runs away: a note says how far."""
-    known = drawn[np.isfinite(drawn)]
-    if not len(known):
-        ax.set_ylim(0.0, 1.0)
-        return
-    top, bottom = float(known.max()), float(known.min())
-    most, end = _bounds(name, known)
-    if top > most > 0.0:
-        at = int(np.nanargmax(drawn > end))
-        note: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": "small"}
-        where, text = ax.get_xaxis_transform(), f"up to {top:.3g} \N{UPWARDS ARROW} "
-        ax.text(time[at], 0.97, text, transform=where, color=RIGHT_COLOUR, **note)
-        top = end
-    if name not in NOT_FROM_ZERO:
-        bottom = min(max(bottom, -most), 0.0)
-    room = max(0.06 * (top - bottom), 0.01 * abs(top)) or 0.5
-    ax.set_ylim(bottom - room * (bottom != 0.0), top + room)
-
-
-def _bounds(name: str, known: np.ndarray) -> tuple[float, float]:
-    """What values have run away beyond, and where the axis ends if some have."""
-    if name == "compression_ratio":
-        return MOST_COMPRESSION
-    usual = float(np.percentile(np.abs(known), 95.0))
-    return RUNS_AWAY * usual, 1.5 * usual
-
-
-def _draw_moments(panels: Iterable[Axes], run: Run) -> None:
-    """Stretches with motor and without fuel, the first misfire, and late ignitions."""
-    missed, late = first_misfire(run), late_ignitions(run)
-    for number, panel in enumerate(panels):
-        for begin, end in motored_times(run):
-            panel.axvspan(begin, end, color=MOTOR_COLOUR, alpha=0.2, lw=0.8, label="motored")
-        for begin, end in fuel_cuts(run):
-            panel.axvspan(begin, end, color="0.3", alpha=0.25, lw=0.8, label="without fuel")
-        if not np.isnan(missed):
-            panel.axvline(missed, color=RIGHT_COLOUR, linestyle=":", label="first misfire")
-        if len(late) and number == 0:
-            table = run.dead_centres
-            ratio = np.interp(late, table["t"], table["compression_ratio"])
-            panel.plot(
-                late, ratio, **marker(MARKERS["ignition"], RIGHT_COLOUR), label="late ignition"
-            )
+        draw(panel, run, name)
+    draw_moments(panels, run)
+    return finished(panels, run, "Under control", columns=2)
 
 
 def _varied(run: Run) -> str:
@@ -374,8 +278,6 @@ def _name_start_up(ax: Axes, run: Run, frequency: float, colour: Any) -> None:
 
 def _demand_panels() -> np.ndarray:
     """Two panels on the left, the upper one higher, and three on the right."""
-    from saleg.plotting.style import new_figure
-
     figure = new_figure(10.0, 6.0)
     grid = figure.add_gridspec(6, 2)
     places = [grid[:4, 0], grid[4:, 0], grid[:2, 1], grid[2:4, 1], grid[4:, 1]]
@@ -385,23 +287,3 @@ def _demand_panels() -> np.ndarray:
     for panel in (panels[0], panels[2], panels[3]):
         panel.tick_params(labelbottom=False)
     return np.array(panels)
-
-
-def _finished(
-    panels: np.ndarray, run: Run, title: str, columns: int = 1, legend_on: Axes | None = None
-) -> np.ndarray:
-    """Titles, grids, time axis and legend of all panels."""
-    for panel in panels:
-        finish(panel, "", None)
-        zero_lines(panel, y=True)
-        panel.set_xlim(0.0, run.duration)
-        panel.yaxis.set_label_coords(-0.11 if columns == 2 else -0.1, 0.5)
-        spec = panel.get_subplotspec()
-        if spec is None or spec.is_last_row():
-            panel.set_xlabel("time [s]")
-    panels[0].set_title(titled(run, title), fontsize="medium")
-    if legend_on is not None:
-        legend_on.legend(fontsize="small", loc="lower right", edgecolor="none")
-    else:
-        legend_below(panels)
-    return panels
