@@ -95,8 +95,8 @@ def test_amplitude_alone_does_little(transient):
     amplitudes = [100.0, 200.0, 300.0, 400.0, 440.0, 450.0, 600.0, 800.0]
     table = control.motored(transient, [35.0], amplitudes)
     assert (table.compression_ratio < 1.6).all()
-    assert table.ports_open_at.isna().tolist() == [True] * 5 + [False] * 3
-    closed = table[table.ports_open_at.isna()]
+    assert table.opened_ports.tolist() == [False] * 5 + [True] * 3
+    closed = table[~table.opened_ports]
     per_newton = closed.stroke / closed.motor_amplitude
     assert np.ptp(per_newton) < 0.01 * per_newton.mean()
     at = table.set_index("motor_amplitude").stroke

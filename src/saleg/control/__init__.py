@@ -15,6 +15,7 @@ from saleg.control.experiments import (
     start_up,
 )
 from saleg.control.maps import OperatingMap, operating_grid, operating_map
+from saleg.control.moments import first_misfire, fuel_cuts, late_ignitions, motored_times
 from saleg.control.plant import Plant
 from saleg.control.running import (
     fired_at,
@@ -35,13 +36,17 @@ __all__ = [
     "demand_by_intake",
     "demand_by_load",
     "fired_at",
+    "first_misfire",
     "fuel_cut",
+    "fuel_cuts",
     "generator",
+    "late_ignitions",
     "misfire",
     "misfires",
     "motor",
     "motor_returns",
     "motored",
+    "motored_times",
     "operating_grid",
     "operating_map",
     "overload",

@@ -70,8 +70,8 @@ def motored(
     -------
     DataFrame
         One row per run: ``motor_frequency``, ``motor_amplitude``, ``stroke``,
-        ``relative_stroke`` (over the maximum), ``compression_ratio``, ``ports_open_at`` (NaN if
-        never; often while it settles), ``status``, ``message``. Units in ``.attrs``.
+        ``relative_stroke`` (over the maximum), ``compression_ratio``, ``opens_ports`` when
+        settled, ``opened_ports`` at any time, ``status``, ``message``. Units in ``.attrs``.
     """
     import pandas as pd
 
@@ -91,6 +91,9 @@ def motored(
         rtol=1e-6,
     )
     most = engine.maximum_stroke
+    ports = min(
+        getattr(side, "port_closing", math.inf) - side.half_stroke for side in engine.chambers
+    )
     frame = pd.DataFrame(
         {
             "motor_frequency": pairs[0],
@@ -98,12 +101,13 @@ def motored(
             "stroke": table.stroke,
             "relative_stroke": table.stroke / most,
             "compression_ratio": table.compression_ratio,
-            "ports_open_at": table.ports_open_at,
+            "opens_ports": 0.5 * table.stroke > ports,
+            "opened_ports": table.farthest > ports,
             "status": table.status,
             "message": table.message,
         }
     )
-    units = {"motor_frequency": "Hz", "motor_amplitude": "N", "stroke": "m", "ports_open_at": "s"}
+    units = {"motor_frequency": "Hz", "motor_amplitude": "N", "stroke": "m"}
     frame.attrs["units"] = {name: units.get(name, "-") for name in frame.columns}
     return frame
 

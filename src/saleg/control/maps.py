@@ -11,6 +11,7 @@ import numpy as np
 from saleg.batches import steady_states
 from saleg.engine import Engine
 from saleg.errors import InvalidController
+from saleg.paths import unit_of
 from saleg.quantities import Problem
 from saleg.status import Status
 
@@ -101,7 +102,7 @@ def operating_map(
     """
     engines = [engine.replace(**{path: float(value)}) for value in values]
     table = steady_states(engines, multipliers=True, executor=executor)
-    units = {path: "-" if path == "equivalence_ratio" else "", **table.attrs["units"]}
+    units = {path: unit_of(engine, path), **table.attrs["units"]}
     table.insert(0, path, np.asarray(values, dtype=float))
     table.attrs["units"] = units
     return OperatingMap(path, table)

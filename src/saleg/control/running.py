@@ -33,10 +33,10 @@ if TYPE_CHECKING:
 #: Columns of a table of runs under controllers.
 CONTROL_UNITS = {
     **RUN_UNITS,
-    "ports_open_at": "s",
     "fired_at": "s",
     "motor_returns": "-",
     "motored_share": "-",
+    "farthest": "m",
 }
 
 
@@ -235,10 +235,10 @@ def simulate_many(
     Returns
     -------
     DataFrame
-        One row per pair, in order: status, message, figures of the last cycle, ``ports_open_at``
-        and ``fired_at``, when ports first opened and when the motor was first left [s],
-        ``motor_returns``, how often it came back, and ``motored_share``, the share of the strokes
-        that were motored. Units in ``.attrs``.
+        One row per pair, in order: status, message, figures of the last cycle, ``fired_at``, when
+        the motor was first left [s], ``motor_returns``, how often it came back,
+        ``motored_share``, the share of the strokes that were motored, and ``farthest``, the
+        greatest distance of a dead centre from the midpoint [m]. Units in ``.attrs``.
     """
     one: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
     return table_of(one, pairs, CONTROL_UNITS, executor, workers, chunk, _kernel_of)
@@ -253,10 +253,10 @@ def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any
     run = simulate(pair[0], pair[1], duration, compiled=True, **settings)
     return {
         **run_row(run),
-        "ports_open_at": first_event(run, layout.EVENT_PORT_OPENING),
         "fired_at": fired_at(run),
         "motor_returns": float(motor_returns(run)),
         "motored_share": motored_share(run),
+        "farthest": float(np.abs(run.strokes["x_end"]).max(initial=0.0)),
     }
 
 
@@ -276,13 +276,8 @@ def fired_at(run: Run) -> float:
     -------
     float
     """
-    return first_event(run, layout.EVENT_MOTOR_OFF)
-
-
-def first_event(run: Run, kind: int) -> float:
-    """When an event of a kind of :mod:`saleg.kernel.layout` first happened [s]; NaN if never."""
-    instants = run.event_rows["t"][run.event_rows["kind"] == kind]
-    return float(instants[0]) if len(instants) else math.nan
+    off = run.event_rows["t"][run.event_rows["kind"] == layout.EVENT_MOTOR_OFF]
+    return float(off[0]) if len(off) else math.nan
 
 
 def motor_returns(run: Run) -> int:

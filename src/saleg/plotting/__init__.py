@@ -4,7 +4,7 @@ Every figure is a function of a run and, if wanted, of the axes to draw on; it r
 Axes of one's own may belong to pyplot; those made here do not, so no display is needed and nothing
 has to be closed. ``run.plot`` offers the same functions: ``run.plot.forces()``. Figures of the
 numerical studies are in ``saleg.plotting.studies``, those of sensitivity studies in
-``saleg.plotting.sensitivity``.
+``saleg.plotting.sensitivity``, those of engines under control in ``saleg.plotting.control``.
 
 matplotlib is imported only when something is drawn.
 
@@ -18,7 +18,9 @@ Examples
 'pressure [bar]'
 """
 
-from saleg.plotting import sensitivity, studies
+from saleg.plotting import control, sensitivity, studies
+from saleg.plotting.animation import AnimationError, animate
+from saleg.plotting.control import controlled
 from saleg.plotting.cycle import NoCycle
 from saleg.plotting.energy import energy_pie
 from saleg.plotting.gas import (
@@ -51,10 +53,14 @@ __all__ = [
     "LEFT_COLOUR",
     "RIGHT_COLOUR",
     "TRANSLATOR_COLOUR",
+    "AnimationError",
     "NoCycle",
     "Plots",
     "acceleration_velocity",
+    "animate",
     "approach_to_steady_state",
+    "control",
+    "controlled",
     "dynamics",
     "efficiency",
     "energy_balance",

@@ -10,11 +10,10 @@ import numpy as np
 
 from saleg.design import formulas
 from saleg.design.geometry import Geometry
+from saleg.plotting.machine import WALL, housing, mover, piston, springs
 from saleg.plotting.style import (
-    ALTERNATOR_COLOUR,
     LEFT_COLOUR,
     RIGHT_COLOUR,
-    SPRING_COLOUR,
     TRANSLATOR_COLOUR,
     axes_or_new,
     finish,
@@ -23,10 +22,6 @@ from saleg.plotting.style import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-#: Thickness of walls in the drawing [mm], turns of a spring, and depth of a bearing [mm].
-WALL, TURNS, BEARING = 4.0, 9, 6.0
-HOUSING = "0.55"
 
 
 def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
@@ -50,10 +45,10 @@ def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
     bottom, top, end = -depth - 6.0 * step, depth + 2.0 * WALL, mm["head"] + 8.0 * WALL
     ax = axes_or_new(ax, width=11.0, height=0.9 + 10.6 * (top - bottom) / (2.0 * end))
     for side in (-1.0, 1.0):
-        _housing(ax, mm, side)
-        _springs(ax, mm, side)
-        _translator(ax, mm, side)
-    _mover(ax, mm)
+        housing(ax, mm, side)
+        springs(ax, mm, side)
+        piston(ax, mm, side)
+    mover(ax, mm)
     _lengths(ax, mm, depth, step)
     _diameters(ax, mm, bottom)
     ax.axhline(0.0, color="0.6", linewidth=0.6, linestyle=(0, (12, 3, 2, 3)), zorder=5)
@@ -66,59 +61,6 @@ def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
     ax.grid(visible=False)
     ax.spines["left"].set_visible(False)
     return ax
-
-
-def _box(ax: Axes, x: float, y: float, width: float, height: float, **look: Any) -> None:
-    from matplotlib.patches import Rectangle
-
-    ax.add_patch(Rectangle((x, y), width, height, **look))
-
-
-def _housing(ax: Axes, mm: dict[str, float], side: float) -> None:
-    """Head, liner with its ports, and bearing of one side."""
-    radius, look = 0.5 * mm["bore"], {"color": HOUSING, "linewidth": 0.0}
-    _box(ax, side * mm["head"], -radius - WALL, side * WALL, 2 * (radius + WALL), **look)
-    width = min(0.06 * mm["head"], 3 * WALL)
-    inner = min(mm["bearing"], mm["port"] - width)
-    for y in (radius, -radius - WALL):
-        _box(ax, side * inner, y, side * (mm["port"] - inner), WALL, **look)
-        _box(ax, side * mm["port"], y, side * (mm["head"] - mm["port"]), WALL, **look)
-        edge = side * (mm["port"] - width)
-        _box(ax, edge, y, side * width, WALL, color="white", zorder=3)
-        _box(ax, edge, y, side * width, WALL, ec=HOUSING, fc="none", zorder=4)
-    rod = 0.5 * mm["rod_diameter"]
-    for y in (rod, -radius - WALL):
-        _box(ax, side * mm["bearing"], y, side * BEARING, radius + WALL - rod, **look)
-
-
-def _springs(ax: Axes, mm: dict[str, float], side: float) -> None:
-    """A spring between the mover and the bearing, above and below the rod."""
-    x = side * np.linspace(mm["mover_end"], mm["bearing"], 2 * TURNS + 1)
-    rod = 0.5 * mm["rod_diameter"]
-    outer = max(0.8 * 0.5 * mm["bore"], rod + 3.0)
-    for sign in (-1.0, 1.0):
-        y = np.where(np.arange(len(x)) % 2, outer, rod + 1.5)
-        ax.plot(x, sign * y, color=SPRING_COLOUR, linewidth=1.2, zorder=1)
-
-
-def _translator(ax: Axes, mm: dict[str, float], side: float) -> None:
-    """Rod and piston of one side."""
-    rod, radius = 0.5 * mm["rod_diameter"], 0.5 * mm["bore"]
-    skirt = 1e3 * formulas.SKIRT_LENGTH
-    look: dict[str, Any] = {"fc": LEFT_COLOUR, "ec": TRANSLATOR_COLOUR, "linewidth": 0.6}
-    _box(ax, 0.0, -rod, side * (mm["crown"] - skirt), 2 * rod, zorder=2, **look)
-    _box(ax, side * (mm["crown"] - skirt), -radius, side * skirt, 2 * radius, zorder=2, **look)
-
-
-def _mover(ax: Axes, mm: dict[str, float]) -> None:
-    """Hollow mover of the alternator, cut open, with the web that carries it."""
-    outer, inner = 0.5 * mm["mover_outer_diameter"], 0.5 * mm["mover_inner_diameter"]
-    length = 2.0 * mm["mover_end"]
-    look: dict[str, Any] = {"fc": ALTERNATOR_COLOUR, "ec": TRANSLATOR_COLOUR, "linewidth": 0.6}
-    for y in (inner, -outer):
-        _box(ax, -mm["mover_end"], y, length, outer - inner, zorder=2, **look)
-    web = 0.5 * WALL
-    _box(ax, -web, -inner, 2 * web, 2 * inner, zorder=1, **look)
 
 
 def _lengths(ax: Axes, mm: dict[str, float], depth: float, step: float) -> None:

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from types import MethodType
 from typing import TYPE_CHECKING, Any
 
+from saleg.plotting.control.timelines import controlled
 from saleg.plotting.energy import energy_pie
 from saleg.plotting.gas import (
     heat_flow_time,
@@ -43,6 +44,7 @@ FIGURES: dict[str, Callable[..., Any]] = {
     "energy_pie": energy_pie,
     "approach_to_steady_state": approach_to_steady_state,
     "dynamics": dynamics,
+    "controlled": controlled,
 }
 
 

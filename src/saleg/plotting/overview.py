@@ -8,7 +8,13 @@ import numpy as np
 
 from saleg.plotting.cycle import NoCycle, last_cycle, titled
 from saleg.plotting.gas import pressure_position
-from saleg.plotting.style import COINCIDING, COLOURS, TRANSLATOR_COLOUR, finish, new_figure
+from saleg.plotting.style import (
+    COINCIDING,
+    COLOURS,
+    TRANSLATOR_COLOUR,
+    finish,
+    panels_or_new,
+)
 from saleg.plotting.translator import velocity_position
 
 if TYPE_CHECKING:
@@ -42,7 +48,7 @@ def dynamics(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
         If the run completed no full cycle.
     """
     last_cycle(run)
-    panels = _panels(ax, (1, 2), 10.0, 4.2)
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.2)
     legend = velocity_position(run, panels[0]).get_legend()
     if legend is not None:
         legend.remove()  # that of the pressures has it all
@@ -74,7 +80,7 @@ def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = 
     cycles = run.cycles
     if len(cycles) == 0:
         raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
-    panels = _panels(ax, (2, 2), 9.0, 5.4)
+    panels = panels_or_new(ax, (2, 2), 9.0, 5.4)
     time = (cycles["t"] + cycles["period"]).to_numpy()
     grey, points = TRANSLATOR_COLOUR, {"marker": ".", "markersize": 4.0}
     stroke, centres, ratio, power = panels
@@ -109,18 +115,3 @@ def _readable(ax: Axes) -> None:
         ax.set_ylim(low - spare, high + spare)
     ax.locator_params(nbins=5)
     ax.ticklabel_format(useOffset=False)
-
-
-def _panels(
-    ax: Sequence[Axes] | np.ndarray | None,
-    shape: tuple[int, int],
-    width: float,
-    height: float,
-) -> np.ndarray:
-    """The axes handed in, or new ones, in one row of an array."""
-    if ax is None:
-        return new_figure(width, height).subplots(*shape, squeeze=False).ravel()
-    panels = np.asarray(ax, dtype=object).ravel()
-    if len(panels) != shape[0] * shape[1]:
-        raise ValueError(f"this figure needs {shape[0] * shape[1]} axes, not {len(panels)}")
-    return panels

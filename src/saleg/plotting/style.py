@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -75,6 +79,23 @@ def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> Axe
     return new_figure(width, height).subplots() if ax is None else ax
 
 
+def panels_or_new(
+    ax: Sequence[Axes] | np.ndarray | None,
+    shape: tuple[int, int],
+    width: float,
+    height: float,
+    **settings: Any,
+) -> np.ndarray:
+    """The axes handed in, or new ones in rows and columns, as a flat array."""
+    if ax is None:
+        made = new_figure(width, height).subplots(*shape, squeeze=False, **settings)
+        return np.asarray(made).ravel()
+    panels = np.asarray(ax, dtype=object).ravel()
+    if len(panels) != shape[0] * shape[1]:
+        raise ValueError(f"this figure needs {shape[0] * shape[1]} axes, not {len(panels)}")
+    return panels
+
+
 def marker(shape: str, colour: str, scale: float = 1.0) -> dict[str, Any]:
     """How a single point is drawn."""
     return {
@@ -122,3 +143,15 @@ def finish(ax: Axes, title: str, legend: str | None, columns: int = 1) -> Axes:
     handles, labels = ax.get_legend_handles_labels()
     ax.legend(handles, labels, ncols=columns, **look)
     return ax
+
+
+def legend_below(panels: Iterable[Axes], columns: int = 4) -> None:
+    """One legend for all panels of a figure, below them; every text once."""
+    axes, handles = list(panels), dict[str, Any]()
+    for panel in axes:
+        for handle, text in zip(*panel.get_legend_handles_labels(), strict=True):
+            handles.setdefault(text, handle)
+    if handles:
+        look: dict[str, Any] = {"ncols": columns, "frameon": False, "fontsize": "small"}
+        texts = list(handles)
+        axes[0].figure.legend(handles.values(), texts, loc="outside lower center", **look)

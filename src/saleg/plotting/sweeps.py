@@ -11,7 +11,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from saleg.plotting.style import LEFT_COLOUR, RIGHT_COLOUR, axes_or_new, finish, new_figure
+from saleg.plotting.style import (
+    LEFT_COLOUR,
+    RIGHT_COLOUR,
+    axes_or_new,
+    finish,
+    legend_below,
+    new_figure,
+)
 from saleg.status import Status
 
 if TYPE_CHECKING:
@@ -44,6 +51,7 @@ WORDS = {
     "dimensionless_heat": r"$Q_{in} / (k L^2)$",
     "frequency_ratio": r"$f_{ss} / \sqrt{k/m}$",
     "egr": "EGR",
+    "intake.temperature": "intake temperature",
 }
 
 
@@ -151,9 +159,9 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
         at = values(ordered, x)
         for kind, rows in kinds(ordered):
             if rows.any():
-                _draw(panel, at, values(ordered, name), rows, kind)
+                draw_kind(panel, at, values(ordered, name), rows, kind)
         _dress(panel, table, x, name)
-    _legend(axes)
+    legend_below(axes)
     return axes
 
 
@@ -276,7 +284,7 @@ def _eight(ax: Any, x: str) -> np.ndarray:
     return np.ravel(figure.subplots(2, 4, sharex=True))
 
 
-def _draw(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind: Kind) -> None:
+def draw_kind(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind: Kind) -> None:
     """Points of a kind, joined only where neighbours are of it; without figures, on the axis."""
     if kind is NO_FIGURES:
         panel.plot(
@@ -298,14 +306,3 @@ def _dress(panel: Axes, table: pd.DataFrame, x: str, name: str) -> None:
     if name == "largest_multiplier":
         panel.axhline(1.0, color="black", linewidth=0.8, linestyle=":")
         panel.set_ylim(0.0, max(1.2, min(panel.get_ylim()[1], 3.0)))
-
-
-def _legend(axes: np.ndarray) -> None:
-    """One legend for all panels, below them."""
-    handles: dict[str, Any] = {}
-    for panel in axes:
-        for handle, text in zip(*panel.get_legend_handles_labels(), strict=True):
-            handles.setdefault(text, handle)
-    axes[0].figure.legend(
-        handles.values(), handles.keys(), loc="outside lower center", ncols=4, frameon=False
-    )

@@ -1,0 +1,185 @@
+"""``saleg control``: an experiment on transient operation and control (Chapter 5)."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.cli.run import CommandError, add_changes, changed, load
+from saleg.files import nearest
+from saleg.machines import CATALOGUE
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from saleg.cli.experiments import Done, Experiment, Line
+    from saleg.engine import Engine
+
+#: The engine of Chapter 5.
+DEFAULT = "thesis-transient"
+#: Options that belong to some experiments only, by the keyword of theirs.
+FLAGS = {
+    "duration": "--duration",
+    "base_frequency": "--base-frequency",
+    "strokes": "--strokes",
+    "motor": "--no-motor",
+    "demand": "--demand",
+}
+ENGINE, TABLES = "engine.toml", ("dead_centres.csv", "cycles.csv", "results.csv")
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser's sub-commands."""
+    parser = commands.add_parser(
+        "control", help="an experiment on start-up, demand or misfire (Chapter 5)"
+    )
+    add = parser.add_argument
+    add("experiment", nargs="?", metavar="EXPERIMENT", help="which; without one, all are listed")
+    add(
+        "machine",
+        nargs="?",
+        default=DEFAULT,
+        metavar="MACHINE|FILE.toml",
+        help="a name 'saleg list' shows, or an engine file (thesis-transient)",
+    )
+    add_changes(parser)
+    add("--duration", type=float, metavar="T", help="time to simulate [s]")
+    add(
+        "--base-frequency", type=float, metavar="F", help="the motor begins with it [Hz] (start-up)"
+    )
+    add("--strokes", type=int, metavar="N", help="strokes without fuel (misfire)")
+    add(
+        "--no-motor",
+        action="store_false",
+        default=None,
+        dest="motor",
+        help="the motor does not come back (misfire)",
+    )
+    add("--demand", type=Path, metavar="FILE.csv", help="times [s] and powers [W], with a header")
+    add("--out", type=Path, metavar="DIR", help="write pictures and tables to a new folder")
+    add("--animate", type=Path, metavar="FILE", help="write the last cycle as .gif or .html")
+    add("--force", action="store_true", help="replace DIR and FILE of an earlier experiment")
+    parser.set_defaults(command=perform)
+
+
+def perform(options: argparse.Namespace) -> bool:
+    """Do an experiment, report and write; returns whether its run ended well."""
+    if options.experiment is None:
+        print(_listed())
+        return True
+    experiment = _experiment(options.experiment)
+    _check(options, experiment)
+    engine = changed(load(options.machine), options.changes)
+    engine.validate()
+    keywords = _keywords(options)
+    if options.out is None:
+        done = experiment.perform(engine, **keywords)
+        print(_report(options, experiment, engine, done))
+    else:
+        from saleg.export.place import new_folder
+
+        with new_folder(options.out, options.force, _known(), how="add --force") as folder:
+            done = experiment.perform(engine, **keywords)
+            names = _write(folder, engine, experiment, done)
+        print(_report(options, experiment, engine, done))
+        print(f"\nwrote {options.out}: {', '.join(names)}")
+    if options.animate is not None and done.run is not None:
+        from saleg.plotting import animate
+
+        animate(done.run, options.animate, overwrite=options.force)
+        print(f"wrote {options.animate}")
+    return done.run is None or done.run.status.ended_well
+
+
+def _listed() -> str:
+    """All experiments, one a line."""
+    from saleg.cli.experiments import EXPERIMENTS
+
+    width = max(map(len, EXPERIMENTS))
+    return "\n".join(f"{name:<{width}}  {item.summary}" for name, item in EXPERIMENTS.items())
+
+
+def _experiment(name: str) -> Experiment:
+    from saleg.cli.experiments import EXPERIMENTS
+
+    if name not in EXPERIMENTS:
+        hint = nearest(name, EXPERIMENTS)
+        raise CommandError(f"no experiment '{name}'{hint}; there are\n{_listed()}")
+    return EXPERIMENTS[name]
+
+
+def _check(options: argparse.Namespace, experiment: Experiment) -> None:
+    """Refuse options the experiment has no use for."""
+    for name, flag in FLAGS.items():
+        if getattr(options, name) is not None and name not in experiment.options:
+            raise CommandError(f"{flag} does not belong to {options.experiment}")
+    if options.animate is None:
+        return
+    if not experiment.is_run:
+        raise CommandError(f"--animate needs a single run, and {options.experiment} is none")
+    from saleg.plotting.animation import check_suffix
+
+    check_suffix(options.animate)
+
+
+def _keywords(options: argparse.Namespace) -> dict[str, Any]:
+    """Keywords of the experiment that were given."""
+    from saleg.control import Demand
+
+    given = {name: getattr(options, name) for name in FLAGS}
+    if given["demand"] is not None:
+        given["demand"] = Demand.read(given["demand"])
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def _report(options: argparse.Namespace, experiment: Experiment, engine: Engine, done: Done) -> str:
+    """What was done, how it ended, and what was seen beside what the dissertation says."""
+    beside = engine == CATALOGUE[DEFAULT]()
+    head = [f"{options.experiment}: {experiment.summary}"]
+    if done.run is not None:
+        head.append(f"{done.run.engine.name}: {done.run.status} - {done.run.message}")
+    lines = experiment.report(done) if done.moved else []
+    return "\n\n".join(["\n".join(head), "\n".join(_aligned(lines, beside))]).rstrip()
+
+
+def _aligned(lines: list[Line], beside: bool) -> list[str]:
+    """Lines of a report as columns; with those of the dissertation if it says something."""
+    rows: list[tuple[str, str, str]] = [("", "here", "dissertation"), *lines]
+    if not beside or not any(line.dissertation for line in lines):
+        rows = [(line.what, line.here, "") for line in lines]
+    first, second = (max((len(row[column]) for row in rows), default=0) for column in (0, 1))
+    return [f"  {what:<{first}}  {here:<{second}}  {said}".rstrip() for what, here, said in rows]
+
+
+def _known() -> tuple[str, ...]:
+    """Names of all files a folder may hold."""
+    from saleg.cli.experiments import EXPERIMENTS
+
+    pictures = {name for experiment in EXPERIMENTS.values() for name in experiment.pictures}
+    return (ENGINE, *TABLES, *sorted(pictures))
+
+
+def _write(folder: Path, engine: Engine, experiment: Experiment, done: Done) -> list[str]:
+    """Write engine, tables and, of what moved, pictures; returns the names of the files."""
+    from saleg.export.csv_folder import write_text
+    from saleg.plotting import control as draw
+
+    write_text(folder / ENGINE, engine.to_toml())
+    if done.run is not None:
+        write_frame(folder / "dead_centres.csv", done.run.dead_centres)
+        write_frame(folder / "cycles.csv", done.run.cycles)
+    if done.table is not None:
+        write_frame(folder / "results.csv", done.table)
+    for name, picture in experiment.pictures.items() if done.moved else ():
+        np.ravel(picture(draw, done))[0].figure.savefig(folder / name)
+    return [name for name in _known() if (folder / name).exists()]
+
+
+def write_frame(path: Path, frame: pd.DataFrame) -> None:
+    """Write a table with its units in the header, every number so that it is read back exactly."""
+    units = frame.attrs["units"]
+    labels = [f"{name} [{units[name]}]" if name in units else str(name) for name in frame]
+    frame.to_csv(path, index=False, header=labels, lineterminator="\n", encoding="utf-8")

@@ -1,0 +1,109 @@
+"""When things happened in a run: motored, without fuel, misfired, lit late. They only read."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from saleg.kernel import layout
+from saleg.results import Run
+
+#: Kinds of events after which a charge is a new one.
+NEW_CHARGE = (layout.EVENT_PORT_CLOSING, layout.EVENT_CHARGE_RENEWAL)
+
+
+def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
+    """First and last index of every stretch of a mask that is true.
+
+    Parameters
+    ----------
+    mask : ndarray of bool
+
+    Returns
+    -------
+    list of (int, int)
+
+    Examples
+    --------
+    >>> stretches(np.array([True, True, False, True]))
+    [(0, 1), (3, 3)]
+    """
+    edges = np.diff(np.concatenate([[0], np.asarray(mask, dtype=np.int8), [0]]))
+    begins, ends = np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1
+    return [(int(first), int(last)) for first, last in zip(begins, ends, strict=True)]
+
+
+def motored_times(run: Run) -> list[tuple[float, float]]:
+    """Begin and end of every stretch of strokes in which the alternator was a motor [s].
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    list of (float, float)
+    """
+    return _times(run, run.strokes["motoring"] > 0.0)
+
+
+def fuel_cuts(run: Run) -> list[tuple[float, float]]:
+    """Begin and end of every stretch of strokes without motor that composed no fuel [s].
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    list of (float, float)
+    """
+    strokes = run.strokes
+    return _times(run, (strokes["motoring"] == 0.0) & (strokes["equivalence_ratio"] == 0.0))
+
+
+def first_misfire(run: Run) -> float:
+    """When a charge with fuel first missed its dead centre [s]; NaN if none did.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    float
+    """
+    times = run.event_rows["t"][run.event_rows["kind"] == layout.EVENT_MISFIRE]
+    return float(times[0]) if len(times) else math.nan
+
+
+def late_ignitions(run: Run) -> np.ndarray:
+    """When charges lit that had missed their dead centre before [s].
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    ndarray of float
+    """
+    missed, found = [False, False], []
+    for kind, side, t in zip(
+        *(run.event_rows[name] for name in ("kind", "side", "t")), strict=True
+    ):
+        if kind in NEW_CHARGE:
+            missed[int(side)] = False
+        elif kind == layout.EVENT_MISFIRE:
+            missed[int(side)] = True
+        elif kind == layout.EVENT_IGNITION and missed[int(side)]:
+            found.append(float(t))
+    return np.array(found)
+
+
+def _times(run: Run, mask: np.ndarray) -> list[tuple[float, float]]:
+    """Begin and end of stretches of strokes [s]."""
+    end = run.strokes["t"]
+    begin = end - run.strokes["duration"]
+    return [(float(begin[first]), float(end[last])) for first, last in stretches(mask)]
