@@ -17,9 +17,15 @@ REPORT = """
 import json, sys
 import saleg
 from saleg.kernel.compose import kernel_for
-run = saleg.simulate(engine, 0.06, rtol=1e-6)
-kernel = kernel_for(engine)
-stats = kernel.run_on.stats
+if whole:
+    run = saleg.simulate(engine, 0.06, rtol=1e-6)
+    stats = kernel_for(engine).run_on.stats
+    kernel = kernel_for(engine)
+else:
+    from saleg import reference
+    run = reference.simulate(engine, 0.06, rtol=1e-6, jitted=True)
+    kernel = kernel_for(engine, ("plain_rhs",))
+    stats = kernel.rates_of_records.stats
 print(json.dumps({
     "hits": sum(stats.cache_hits.values()),
     "misses": sum(stats.cache_misses.values()),
@@ -70,8 +76,10 @@ def script(tmp_path, code, cache, check=True):
     )
 
 
-def report(tmp_path, engine, cache):
-    out = script(tmp_path, f"import saleg\n{textwrap.dedent(engine)}\n{REPORT}", cache)
+def report(tmp_path, engine, cache, whole=True):
+    """What a process sees of a kernel: the whole one, or that of the reference, soon compiled."""
+    engine = textwrap.dedent(engine)
+    out = script(tmp_path, f"import saleg\n{engine}\nwhole = {whole}\n{REPORT}", cache)
     return json.loads(out.stdout.splitlines()[-1])
 
 
@@ -110,14 +118,14 @@ engine = saleg.machines.thesis_base().replace(springs=MySprings())
 def test_an_edited_law_helper_or_constant_recompiles(tmp_path):
     cache = tmp_path / "cache"
     write_law(tmp_path)
-    base = report(tmp_path, BASE, cache)
-    same = report(tmp_path, CUSTOM, cache)
+    base = report(tmp_path, BASE, cache, whole=False)
+    same = report(tmp_path, CUSTOM, cache, whole=False)
     assert same["x"] == base["x"]
-    assert report(tmp_path, CUSTOM, cache)["hits"] == 1
+    assert report(tmp_path, CUSTOM, cache, whole=False)["hits"] == 1
     seen = {same["name"]}
     for edit in ({"factor": 2.2}, {"scale": 1.1}, {"extra": " * 1.1"}):
         write_law(tmp_path, **edit)
-        edited = report(tmp_path, CUSTOM, cache)
+        edited = report(tmp_path, CUSTOM, cache, whole=False)
         assert edited["misses"] == 1
         assert edited["name"] not in seen
         seen.add(edited["name"])
@@ -129,15 +137,17 @@ def test_engines_with_different_laws_in_one_process_never_mix(tmp_path):
     write_law(tmp_path, name="law_b", helper="helper_b", scale=1.3)
     code = """
     import saleg, law_a, law_b
+    from saleg.reference import simulate
     base = saleg.machines.thesis_base()
     a, b = base.replace(springs=law_a.MySprings()), base.replace(springs=law_b.MySprings())
-    first = [saleg.simulate(e, 0.06).strokes["x_end"].tolist() for e in (base, a, b)]
-    again = [saleg.simulate(e, 0.06).strokes["x_end"].tolist() for e in (b, a, base)][::-1]
-    stiff = saleg.simulate(base.replace(**{"spring.stiffness": 39e3}), 0.06)
+    run = lambda e: simulate(e, 0.06, jitted=True).strokes["x_end"].tolist()
+    first = [run(e) for e in (base, a, b)]
+    again = [run(e) for e in (b, a, base)][::-1]
+    stiff = run(base.replace(**{"spring.stiffness": 39e3}))
     assert first == again
     same = lambda one, two: max(abs(a - b) for a, b in zip(one, two, strict=True)) < 1e-9
     assert same(first[0], first[1]) and not same(first[0], first[2])
-    assert same(first[2], stiff.strokes["x_end"].tolist())
+    assert same(first[2], stiff)
     print("fine")
     """
     assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
