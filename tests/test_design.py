@@ -269,6 +269,28 @@ def test_a_neighbour_is_a_start(base_design):
     assert warm.quick_performance.power == pytest.approx(cold.quick_performance.power, rel=1e-5)
 
 
+def test_an_orbit_away_from_the_standard_starts_is_followed_there():
+    """The piston reaches the port down to 0.0422; cold starts lead nowhere below 0.053."""
+    found = saleg.design.evaluate(port_location=0.043)
+    assert found.status is Status.STEADY
+    assert found.method == "continuation"
+    assert "followed from the base case" in found.message
+    assert found.stable
+    assert abs(found.mass_error) < 1.1e-6
+    lost = saleg.design.evaluate(port_location=0.042)
+    assert lost.status is Status.STALLED
+    assert "no orbit could be followed" in lost.message
+    # Its piston would turn before it has opened the port.
+    assert found.performance.stroke < 0.2 * (1.0 - 2.0 * 0.042)
+
+
+def test_a_row_without_an_orbit_has_no_mass():
+    table = saleg.design.evaluate_many(pd.DataFrame({"port_location": [0.335, 0.03]}))
+    assert list(table.status) == ["steady", "stalled"]
+    for name in ("moving_mass", "power_density", "frequency_ratio"):
+        assert table[name].notna().tolist() == [True, False], name
+
+
 def test_air_springs_are_faster(base_design):
     """4.4: without moving mass the springs no longer cost frequency and power density."""
     light = saleg.design.evaluate(Design(masses=MassModel(springs=AirSprings())))
@@ -291,6 +313,32 @@ def test_mass_models_can_be_replaced():
     found = saleg.design.evaluate(Design(masses=MassModel(rod=HeavyRod(0.7))))
     assert found.masses.rod == 0.7
     assert abs(found.mass_error) < 1.1e-6
+
+
+@dataclass(frozen=True)
+class JumpyRod:
+    """A rod whose mass jumps where its own orbit lies."""
+
+    def mass(self, parameters, operation):
+        return 0.3 if operation.stroke > 0.1806 else 2.0
+
+
+def test_an_open_loop_is_no_steady_state():
+    """No orbit has the mass of its components: the simulation's own verdict does not count."""
+    found = saleg.design.evaluate(Design(masses=MassModel(rod=JumpyRod())))
+    assert abs(found.mass_error) > 0.1
+    assert found.status is Status.UNSTEADY
+    assert not found.found
+    assert "mass of the components still differs" in found.message
+
+
+def test_the_loop_closes_through_simulations_as_tightly():
+    """One misfire long ago: nothing for a return map, and yet the same mass."""
+    design = Design().replace({"misfires": saleg.laws.ScheduledMisfires(first=3.0)})
+    found = saleg.design.evaluate(design)
+    assert (found.method, found.status) == ("simulation", Status.STEADY)
+    assert abs(found.mass_error) <= 1e-6
+    assert found.moving_mass == pytest.approx(saleg.design.evaluate().moving_mass, rel=1e-5)
 
 
 def test_what_fails_is_said():
