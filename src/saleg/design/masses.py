@@ -179,7 +179,7 @@ class MassModel:
 
     @classmethod
     def with_crankcase(cls) -> MassModel:
-        """The reading that meets the masses of Table 9 to 0.3 %: room beneath the pistons.
+        """The reading that meets the masses of Table 9 to 0.4 %: room beneath the pistons.
 
         The rod is longer by 2 L, the alternator of 820 kg/m^3 (docs/design.md).
 
