@@ -412,6 +412,47 @@ def test_score_rewards_what_figure_85_rewards():
     assert score({**good, "efficiency": math.nan}) == 0.0
 
 
+def test_score_knows_unstable_orbits_and_engines_that_deliver_nothing():
+    good = {
+        "efficiency": 0.45,
+        "stability": 1e-7,
+        "compression_ratio": 20.0,
+        "peak_pressure": 100e5,
+    }
+    score = Score()
+    best = score(good)
+    assert score({**good, "largest_multiplier": 0.9}) == best
+    assert score({**good, "largest_multiplier": math.nan}) == best
+    assert score({**good, "largest_multiplier": 1.1}) == pytest.approx(best - 3.0 / 8.0)
+    assert score({**good, "efficiency": 0.0}) == 0.0
+    table = saleg.design.evaluate_many(
+        pd.DataFrame({"bore": [0.064, 0.040], "intake_temperature": [600.0, 325.0]}),
+        multipliers=True,
+    )
+    assert list(table.status) == ["idling", "steady"]
+    assert not table.stable[1]
+    assert table.score[0] == 0.0
+    assert table.score[1] < 5.0 / 8.0
+    assert score(table).tolist() == table.score.tolist()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "match"),
+    [
+        ({"efficiency": -1.0}, "efficiency = -1"),
+        ({"target_efficiency": 0.0}, "target_efficiency"),
+        ({"least_compression_ratio": 40.0}, "must be >= 40"),
+        (
+            {"efficiency": 0.0, "stability": 0.0, "compression_ratio": 0.0, "peak_pressure": 0.0},
+            "one of the four weights",
+        ),
+    ],
+)
+def test_scores_that_make_no_sense_are_refused(wrong, match):
+    with pytest.raises(saleg.SalegError, match=match):
+        Score(**wrong)
+
+
 def test_figures_of_the_design(base_design):
     ax = base_design.draw()
     assert "789 mm" in ax.get_title()

@@ -363,6 +363,31 @@ def test_indices_refuse_to_hide_failed_designs():
         sweep.indices(good, "colour", ["egr", "bore"])
 
 
+def test_indices_refuse_unstable_orbits_unless_asked():
+    points = sweep.saltelli_points({"egr": (0.1, 0.2), "bore": (0.040, 0.060)}, 4)
+    table = sweep.run(points)
+    assert (table.status == "steady").all()
+    assert not table.stable.all()
+    with pytest.raises(sweep.NoIndices, match=r"[0-9]+ unstable.*unstable=True"):
+        sweep.indices(table, "power")
+    assert sweep.indices(table, "power", unstable=True).table.total.idxmax() == "bore"
+
+
+def test_what_indices_cannot_be_of():
+    points = sweep.saltelli_points({"egr": (0.1, 0.2), "bore": (0.05, 0.06)}, 8)
+    table = points.assign(message="x", status="steady", y=points.egr**2 + points.bore)
+    names = ["egr", "bore"]
+    assert sweep.indices(table, "y", names).table.total.idxmax() == "egr"
+    with pytest.raises(sweep.NoIndices, match="egr is the only input"):
+        sweep.indices(table, "y", ["egr"])
+    with pytest.raises(sweep.NoIndices, match="message holds no numbers"):
+        sweep.indices(table, "message", names)
+    with pytest.raises(sweep.NoIndices, match="1 without y"):
+        sweep.indices(table.drop(columns="status").assign(y=[np.nan] + 31 * [1.0]), "y", names)
+    with pytest.raises(sweep.NoIndices, match="no column 'erg'"):
+        sweep.indices(table, "y", ["erg", "bore"])
+
+
 # ---- what section 4.2 says of its eight sweeps -------------------------------------------------
 
 
@@ -562,10 +587,16 @@ def test_panels_tell_kinds_of_points_apart():
 def test_groups_and_maps(cloud):
     for name in saleg.design.results.GROUPS:
         axes = figures.groups(cloud, name)
-        assert len(axes[3].collections[0].get_offsets()) == (cloud.status == "steady").sum()
+        stable, unstable = axes[3].collections
+        assert len(stable.get_offsets()) == cloud.stable[cloud.status == "steady"].sum()
+        assert len(unstable.get_offsets()) == (~cloud.stable[cloud.status == "steady"]).sum()
+        assert len(unstable.get_facecolor()) == 0
     ax = figures.design_map(cloud, "stroke_to_bore", "frequency", "power_density")
     assert ax.get_zlabel() == "power density [kW/kg]"
-    assert f"of {len(cloud)} designs" in ax.get_title()
+    orbits = cloud[cloud.status == "steady"]
+    counted = f"{orbits.stable.sum()} stable of {len(cloud)} designs, {len(orbits)} with an orbit"
+    assert ax.get_title() == counted
+    assert axes[0].figure.get_suptitle() == counted
 
 
 def test_nothing_heavy_is_imported_with_saleg():

@@ -83,11 +83,11 @@ def solve(
     Returns
     -------
     DesignedState
-        Always with a status and a message. Where the standard starts lead to no orbit it is followed
-        from the base case with the same laws, all eight parameters changing together; the method
-        is then "continuation". Without a steady state masses and dimensions are those for the mean
-        of the last simulated strokes, and the moving mass is a guess. "unsteady" is also what
-        repeats itself with another mass than that of its components.
+        Always with a status and a message. Where the standard starts lead to no orbit it is
+        followed from the base case with the same laws, all eight parameters changing together; the
+        method is then "continuation". Without a steady state masses and dimensions are those for
+        the mean of the last simulated strokes, and the moving mass is a guess. "unsteady" is also
+        what repeats itself with another mass than that of its components.
 
     Raises
     ------

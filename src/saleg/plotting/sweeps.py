@@ -1,8 +1,8 @@
 """Figures of sweeps: panels over an input (67-82), over the groups (115-124), design maps (87-91).
 
 Points that differ in kind look different: stable, unstable (an orbit from which the engine
-departs), unsteady (no orbit found; figures of the last simulated cycle), and points without any
-figures as ticks on the axis.
+departs), unsteady (no orbit found; figures of the last simulated cycle), and stalled, idling or
+invalid points as ticks on the axis, whatever figures they have.
 """
 
 from __future__ import annotations
@@ -74,6 +74,8 @@ class Kind(NamedTuple):
 
 
 STABLE = Kind("stable", {"color": LEFT_COLOUR, "marker": ".", "markersize": 4, "linewidth": 1.4})
+#: The same where multipliers were not asked for.
+ORBIT = STABLE._replace(label="orbit, stability not examined")
 UNSTABLE = Kind(
     "unstable orbit",
     {
@@ -96,13 +98,13 @@ NO_FIGURES = Kind(
 
 
 def kinds(table: pd.DataFrame) -> list[tuple[Kind, np.ndarray]]:
-    """Kinds of points with the rows of each; without multipliers all orbits count as stable."""
+    """Kinds of points with the rows of each."""
     status = table["status"].to_numpy()
     steady = status == str(Status.STEADY)
     stable = table["stable"].to_numpy(dtype=bool) if "stable" in table else steady
     unsteady = status == str(Status.UNSTEADY)
     return [
-        (STABLE, steady & stable),
+        (STABLE if "stable" in table else ORBIT, steady & stable),
         (UNSTABLE, steady & ~stable),
         (UNSTEADY, unsteady),
         (NO_FIGURES, ~steady & ~unsteady),
@@ -160,6 +162,8 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
 def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     """Draw a cloud of designs over a dimensionless group, coloured by score (Figures 117-124).
 
+    Unstable orbits are hollow.
+
     Parameters
     ----------
     table : DataFrame
@@ -178,17 +182,12 @@ def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     kept = _orbits(table).sort_values("score")
     kept.attrs = table.attrs
     for panel, name in zip(axes, _shown(table), strict=True):
-        dots = panel.scatter(
-            values(kept, x),
-            values(kept, name),
-            c=kept["score"],
-            s=7,
-            linewidths=0,
-        )
+        dots = _cloud(panel, kept, [values(kept, x), values(kept, name)], kept["score"], 7.0)
         if np.nanmax(values(kept, name)) > WIDE * abs(np.nanmin(values(kept, name))):
             panel.set_yscale("log")
         _dress(panel, table, x, name)
     axes[0].figure.colorbar(dots, ax=list(axes), label="score [-]", aspect=40, pad=0.01)
+    axes[0].figure.suptitle(_count(table), fontsize="medium")
     return axes
 
 
@@ -197,7 +196,8 @@ def design_map(
 ) -> Any:
     """Draw designs over three columns, coloured by a fourth (Figures 87-91).
 
-    Each design stands on a thin line, so that its place can be read in the ground plane.
+    Each design stands on a thin line, so that its place can be read in the ground plane; unstable
+    orbits are hollow.
 
     Parameters
     ----------
@@ -220,13 +220,13 @@ def design_map(
     floor = float(at[2].min()) - 0.04 * float(np.ptp(at[2]))
     for a, b, c in zip(*at, strict=True):
         ax.plot([a, a], [b, b], [floor, c], color="0.85", linewidth=0.4, zorder=0)
-    dots = ax.scatter(*at, c=values(kept, colour), s=14, depthshade=False)
+    dots = _cloud(ax, kept, at, values(kept, colour), 14.0, depthshade=False)
     ax.set_zlim(bottom=floor)
     ax.set_xlabel(label(table, x))
     ax.set_ylabel(label(table, y))
     ax.set_zlabel(label(table, z))
     ax.figure.colorbar(dots, ax=ax, label=label(table, colour), shrink=0.75, pad=0.12)
-    ax.set_title(f"{len(kept)} of {len(table)} designs have an orbit", fontsize="medium")
+    ax.set_title(_count(table), fontsize="medium")
     return ax
 
 
@@ -262,6 +262,38 @@ def indices(found: Indices, ax: Axes | None = None) -> Axes:
 def _orbits(table: pd.DataFrame) -> pd.DataFrame:
     """Rows with a steady state."""
     return table[table["status"] == str(Status.STEADY)]
+
+
+def _cloud(
+    ax: Any, kept: pd.DataFrame, at: list[np.ndarray], colour: Any, size: float, **more: Any
+) -> Any:
+    """Points coloured by a figure, those of unstable orbits hollow; what a colour bar needs."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    shown = np.asarray(colour, dtype=float)
+    scale = ScalarMappable(Normalize(shown.min(), shown.max()))
+    for kind, rows in kinds(kept):
+        if rows.any():
+            shades = scale.to_rgba(shown[rows])
+            faces = "none" if kind is UNSTABLE else shades
+            look = {
+                "facecolors": faces,
+                "edgecolors": shades,
+                "linewidths": 0.8 if kind is UNSTABLE else 0.0,
+            }
+            ax.scatter(*(part[rows] for part in at), s=size, **look, **more)
+    return scale
+
+
+def _count(table: pd.DataFrame) -> str:
+    """How many designs have a stable orbit, or any where stability was not asked for."""
+    orbits = _orbits(table)
+    if "stable" not in table:
+        return f"{len(orbits)} of {len(table)} designs have an orbit, stability not examined"
+    return (
+        f"{int(orbits['stable'].sum())} stable of {len(table)} designs, {len(orbits)} with an orbit"
+    )
 
 
 def _shown(table: pd.DataFrame) -> list[str]:
