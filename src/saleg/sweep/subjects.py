@@ -14,6 +14,7 @@ from saleg.design.many import Follower
 from saleg.engine import Engine
 from saleg.paths import unit_of
 from saleg.steady import steady_state
+from saleg.sweep.identity import described, own_code
 from saleg.sweep.points import SweepError
 
 Values = Mapping[str, float]
@@ -57,10 +58,10 @@ class DesignSubject:
             "kind": "design",
             "parameters": dataclasses.asdict(self.design.parameters),
             "masses": {
-                item.name: repr(getattr(self.design.masses, item.name))
+                item.name: described(getattr(self.design.masses, item.name), f"masses.{item.name}")
                 for item in dataclasses.fields(self.design.masses)
             },
-            "laws": self.design.laws.to_toml(),
+            **_laws(self.design.laws),
         }
 
     def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
@@ -85,7 +86,7 @@ class EngineSubject:
 
     def describe(self) -> dict[str, Any]:
         """The engine."""
-        return {"kind": "engine", "laws": self.engine.to_toml()}
+        return {"kind": "engine", **_laws(self.engine)}
 
     def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
         """What makes a row of a point, from the engine's own starts."""
@@ -97,6 +98,11 @@ class EngineSubject:
             return steady_row(found, multipliers)
 
         return row
+
+
+def _laws(engine: Engine) -> dict[str, Any]:
+    """An engine with all its numbers, and what its file would not say: the code of own laws."""
+    return {"laws": engine.to_toml(), "own_laws": own_code(engine)}
 
 
 def subject_of(swept: Design | Engine | Subject | None) -> Subject:
