@@ -278,6 +278,109 @@ def test_a_folder_says_what_it_holds_and_takes_no_other_sweep(tmp_path):
         sweep.run(points, folder=strange)
 
 
+def test_a_file_of_the_users_own_is_left_alone(tmp_path):
+    points = sweep.grid({"bore": [0.064]})
+    (tmp_path / "points.csv").write_text("mine")
+    with pytest.raises(sweep.SweepError, match=r"it holds points\.csv"):
+        sweep.run(points, folder=tmp_path)
+    assert (tmp_path / "points.csv").read_text() == "mine"
+    assert [file.name for file in tmp_path.iterdir()] == ["points.csv"]
+
+
+@pytest.fixture
+def stopped(tmp_path):
+    """A sweep that was stopped after some of its parts."""
+
+    def stop(done, total):
+        if done >= 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep.run(sweep.grid(SMALL), folder=tmp_path / "s", chunk=2, report=stop, workers=1)
+    return tmp_path / "s"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        "{}",
+        '{"status":["steady"]}',
+        '{"columns": {"status": ["steady", "steady"]}}',
+        None,
+    ],
+)
+def test_a_damaged_part_is_done_again(stopped, text):
+    part = stopped / "parts" / "0000000.json"
+    part.write_text(part.read_text()[:-60] if text is None else text)
+    whole = sweep.run(sweep.grid(SMALL), chunk=2)
+    assert sweep.run(sweep.grid(SMALL), folder=stopped, chunk=2).equals(whole)
+
+
+def test_a_part_with_a_changed_number_is_done_again(stopped):
+    part = stopped / "parts" / "0000000.json"
+    part.write_text(part.read_text().replace("steady", "stalled"))
+    assert (sweep.run(sweep.grid(SMALL), folder=stopped, chunk=2).status == "steady").all()
+
+
+@pytest.mark.parametrize(
+    ("name", "damage"),
+    [
+        ("results.csv", lambda text: text[: text.rindex("0.064")]),  # cut at the end of a line
+        ("results.csv", lambda text: text[:-9]),
+        ("results.csv", lambda text: ""),
+        ("results.csv", lambda text: "a,b\n1,2\n"),
+        ("results.csv", lambda text: text.replace("egr [-]", "phi [-]")),
+        ("results.csv", lambda text: text.replace("0.062", "wide")),
+        ("sweep.json", lambda text: "[1, 2]"),
+        ("sweep.json", lambda text: "{}"),
+        ("sweep.json", lambda text: text[:-40]),
+    ],
+)
+def test_damaged_folders_are_named(tmp_path, name, damage):
+    folder = tmp_path / "s"
+    sweep.run(sweep.grid(SMALL), folder=folder, multipliers=False)
+    file = folder / name
+    file.write_text(damage(file.read_text()))
+    with pytest.raises(sweep.SweepError, match=str(folder)):
+        sweep.load(folder)
+    with pytest.raises(sweep.SweepError, match=str(folder)):
+        sweep.run(sweep.grid(SMALL), folder=folder, multipliers=False)
+
+
+def test_missing_and_binary_files_are_named(tmp_path):
+    folder = tmp_path / "s"
+    sweep.run(sweep.grid(SMALL), folder=folder, multipliers=False)
+    (folder / "results.csv").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(sweep.SweepError, match=r"results.csv is damaged"):
+        sweep.load(folder)
+    (folder / "points.csv").unlink()
+    with pytest.raises(sweep.SweepError, match=r"cannot read .*points.csv"):
+        sweep.run(sweep.grid(SMALL), folder=folder, multipliers=False)
+
+
+def test_files_of_a_sweep_are_like_any_others(tmp_path, monkeypatch):
+    folder, points = tmp_path / "s", sweep.grid({"bore": [0.064]})
+    sweep.run(points, folder=folder, multipliers=False)
+    sweep.run(points, folder=folder, multipliers=False)
+    assert not (folder / "parts").exists()
+    plain = tmp_path / "plain"
+    plain.write_text("")
+    for name in ("sweep.json", "points.csv", "results.csv"):
+        assert (folder / name).stat().st_mode == plain.stat().st_mode
+    with pytest.raises(sweep.SweepError, match=r"cannot write .*plain"):
+        sweep.run(points, folder=plain / "s")
+
+    def full(*paths):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(sweep.SweepError, match=r"cannot write .*points.csv: No space"):
+        sweep.run(points, folder=tmp_path / "other")
+    assert not list((tmp_path / "other").glob(".points*"))
+
+
 MODELS = """
 from dataclasses import dataclass
 

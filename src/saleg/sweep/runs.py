@@ -17,7 +17,7 @@ from saleg.engine import Engine
 from saleg.quantities import is_number
 from saleg.steady import DEFAULT_TOLERANCE, check_tolerance
 from saleg.sweep.points import SweepError
-from saleg.sweep.store import RESULTS, Folder, read_description, read_table
+from saleg.sweep.store import Folder
 from saleg.sweep.subjects import Subject, Values, subject_of
 from saleg.version import __version__
 from saleg.workers import completed
@@ -130,13 +130,11 @@ def load(folder: str | Path) -> pd.DataFrame:
     Raises
     ------
     SweepError
-        If there is none.
+        If there is none, or it is damaged.
     """
     if not Folder(Path(folder)).finished:
         raise SweepError(f"{folder} holds no finished sweep; run it again to finish it")
-    table = read_table(Path(folder) / RESULTS)
-    table.attrs["inputs"] = list(read_description(Path(folder))["inputs"])
-    return table
+    return Folder(Path(folder)).table()
 
 
 def _resumed(
@@ -151,10 +149,11 @@ def _resumed(
 ) -> pd.DataFrame:
     """Do what is not done yet and keep it."""
     if kept.finished:
+        kept.clear()  # what was left if the end was interrupted
         if report is not None:
             report(len(points), len(points))
         return load(kept.path)
-    done = kept.done()
+    done = kept.done({number: len(piece) for number, piece in pieces})
     left = [piece for piece in pieces if piece[0] not in done]
     before = len(points) - sum(len(piece) for _, piece in left)
     for _ in _work(job, left, executor, workers, report, before, kept.keep):
