@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -339,6 +340,72 @@ def test_the_loop_closes_through_simulations_as_tightly():
     assert (found.method, found.status) == ("simulation", Status.STEADY)
     assert abs(found.mass_error) <= 1e-6
     assert found.moving_mass == pytest.approx(saleg.design.evaluate().moving_mass, rel=1e-5)
+
+
+def test_an_alternator_of_ones_own_needs_no_diameter():
+    design = Design(masses=MassModel(alternator=HeavyRod(0.8)))
+    found = saleg.design.evaluate(design)
+    assert found.found
+    assert math.isnan(found.geometry.mover_outer_diameter)
+    texts = [text.get_text() for text in found.draw().texts]
+    assert not any("D_o" in text for text in texts)
+    table = sweep.run(sweep.grid({"bore": [0.064]}), design)
+    assert table.status[0] == "steady"
+    assert np.isnan(table.alternator_diameter[0])
+
+
+@dataclass(frozen=True)
+class WrongRod:
+    """A rod that weighs whatever it is told."""
+
+    given: object
+
+    def mass(self, parameters, operation):
+        return self.given
+
+
+@pytest.mark.parametrize("given", [-10.0, math.nan, "heavy", None, np.array([0.3])])
+def test_models_that_give_no_mass_are_named(given):
+    with pytest.raises(saleg.design.InvalidMass, match=r"masses\.rod: WrongRod\.mass gave"):
+        saleg.design.evaluate(Design(masses=MassModel(rod=WrongRod(given))))
+
+
+def test_what_is_no_design_is_refused():
+    for wrong in ("thesis", {"bore": 0.06}, saleg.machines.thesis_base()):
+        with pytest.raises(saleg.design.InvalidDesign, match=r"must be a saleg\.design\.Design"):
+            saleg.design.evaluate(wrong)
+    with pytest.raises(saleg.design.InvalidDesign, match=r"must be a saleg\.design\.Design"):
+        saleg.design.solve(None)
+    for part in ({"parameters": {"bore": 0.06}}, {"laws": None}, {"masses": 3.0}):
+        with pytest.raises(saleg.design.InvalidDesign, match="must be a"):
+            Design(**part)
+    with pytest.raises(saleg.design.InvalidDesign, match="not a class"):
+        saleg.design.evaluate(Design(masses=MassModel(rod=AirSprings)))
+    bounce = saleg.BounceChamber(bore=0.064, half_stroke=0.1, pressure=2.5e5)
+    engine = saleg.Engine(translator=saleg.Translator(mass=2.0), left=bounce, right=bounce)
+    with pytest.raises(saleg.design.InvalidDesign, match="cylinders with ports"):
+        saleg.design.evaluate(Design(laws=engine))
+
+
+@pytest.mark.parametrize(
+    ("values", "match"),
+    [
+        ({"bore": 64.0}, "given in mm?"),
+        ({"half_stroke": 100.0}, "given in mm?"),
+        ({"intake_pressure": 1.05}, "given in bar?"),
+        ({"intake_temperature": 51.9}, "given in degrees Celsius?"),
+        ({"egr": 12.0}, "given in %?"),
+    ],
+)
+def test_other_units_are_suspected(values, match):
+    with pytest.raises(saleg.design.InvalidDesign, match=re.escape(match)):
+        saleg.design.evaluate(**values)
+
+
+def test_a_name_is_suggested_once():
+    with pytest.raises(saleg.UnknownPath) as error:
+        saleg.design.evaluate(boer=0.06)
+    assert str(error.value).count("'bore'") == 1
 
 
 def test_what_fails_is_said():

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.design.designs import Design
+from saleg.design.designs import Design, InvalidDesign
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 from saleg.design.results import DesignedState
@@ -24,6 +24,7 @@ from saleg.engine import Engine, Translator
 from saleg.kernel import layout
 from saleg.kernel.orbit import read_vector, write_vector
 from saleg.prepare import State, prepare
+from saleg.quantities import Problem
 from saleg.return_map import ReturnMap, is_symmetric, repeats_itself
 from saleg.start import CompressedCharge, Start
 from saleg.status import Status
@@ -103,6 +104,7 @@ def solve(
     (2.33, True)
     """
     check_tolerance(rtol)
+    _check_design(design)
     design.validate()
     engine = design.engine(1.0)
     guess = _mass(design, Operation.guess(engine))
@@ -154,7 +156,15 @@ def evaluate(
     >>> found.stable, round(found.geometry.mover_outer_diameter, 3)
     (True, 0.083)
     """
-    return solve((design or Design()).replace(values), rtol=rtol)
+    design = Design() if design is None else design
+    _check_design(design)
+    return solve(design.replace(values), rtol=rtol)
+
+
+def _check_design(design: Any) -> None:
+    if not isinstance(design, Design):
+        need = "must be a saleg.design.Design, as Design().replace(bore=0.06); names go as keywords"
+        raise InvalidDesign([Problem("design", design, "-", need)])
 
 
 def _mass(design: Design, operation: Operation) -> float:
