@@ -6,6 +6,7 @@ import linecache
 import math
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -88,6 +89,52 @@ def test_points():
 )
 def test_what_makes_no_sense_is_refused(wrong):
     with pytest.raises(saleg.SalegError):
+        wrong()
+
+
+BORES = {"bore": (0.05, 0.06)}
+
+
+@pytest.mark.parametrize(
+    ("wrong", "match"),
+    [
+        (lambda: sweep.latin_hypercube(BORES, 4, seed=-1), "seed = -1"),
+        (lambda: sweep.sobol(BORES, 4, seed=1.5), "seed = 1.5"),
+        (lambda: sweep.saltelli_points(BORES, 4, seed="x"), "seed = 'x'"),
+        (lambda: sweep.saltelli_points(BORES, True), "count = True"),
+        (lambda: sweep.sobol({"bore": (0.05, math.inf)}, 4), "finite"),
+        (lambda: sweep.sobol([("bore", (0.05, 0.06))], 4), "values by name"),
+        (lambda: sweep.grid([0.06]), "values by name"),
+        (lambda: sweep.sobol(BORES, 2**40), "split the sweep"),
+        (lambda: sweep.latin_hypercube(BORES, 10**9), "split the sweep"),
+        (lambda: sweep.saltelli_points(BORES, 2**32), "split the sweep"),
+        (lambda: sweep.grid(dict.fromkeys("abcd", range(100))), "split the sweep"),
+        (lambda: sweep.run({"bore": [0.06]}), "must be a DataFrame"),
+        (lambda: sweep.run(None), "must be a DataFrame"),
+        (lambda: sweep.run(sweep.grid(SMALL), "thesis-base"), "cannot sweep 'thesis-base'"),
+        (lambda: sweep.run(sweep.grid(SMALL), Design), "cannot sweep"),
+        (lambda: sweep.run(sweep.grid(SMALL), workers=0), "workers = 0"),
+        (lambda: sweep.run(sweep.grid(SMALL), workers=1.5), "workers = 1.5"),
+        (lambda: sweep.run(sweep.grid(SMALL), executor="threads"), "method submit"),
+        (lambda: sweep.run(sweep.grid(SMALL), executor=ProcessPoolExecutor), "method submit"),
+        (lambda: sweep.run(sweep.grid(SMALL), chunk=True), "chunk = True"),
+        (lambda: sweep.run(sweep.grid(SMALL), folder=3), "folder = 3"),
+        (lambda: sweep.run(sweep.grid({"moving_mass": [2.0]})), "follows from the eight"),
+        (lambda: sweep.run(sweep.grid({"intake.pressure": [1.05e5]})), "follows from the eight"),
+        (lambda: sweep.run(sweep.grid({"masses.rod": [0.5]})), "masses.rod is no number"),
+        (lambda: sweep.run(sweep.grid({"heat_transfer": [0.5]})), "is no number but a Hohenberg"),
+        (
+            lambda: sweep.run(sweep.grid({"friction": [0.5]}), saleg.machines.thesis_base()),
+            "friction is no number",
+        ),
+        (
+            lambda: sweep.run(pd.DataFrame([[0.06, 0.07]], columns=["bore", "bore"])),
+            "stands twice",
+        ),
+    ],
+)
+def test_what_to_change_is_said(wrong, match):
+    with pytest.raises(saleg.SalegError, match=re.escape(match)):
         wrong()
 
 
@@ -498,6 +545,7 @@ def test_sweeps_on_the_command_line(tmp_path, capsys):
     assert table.power[1] == saleg.design.evaluate(bore=0.064, egr=0.1).quick_performance.power
     file.write_text('[sweep]\nmachine = "thesis-base"\n[list]\nbore = [0.06, -1.0]\n')
     assert main(["sweep", str(file), "--out", str(tmp_path / "other")]) == 1
+    assert "1 of the failed: 1 wrong field" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -506,6 +554,18 @@ def test_sweeps_on_the_command_line(tmp_path, capsys):
         ("[grod]\nbore = [1.0]", "grod"),
         ("[fixed]\nbore = 0.06", "needs one of"),
         ("[grid]\nbore = {from = 1, to = 2}", "from, to and count"),
+        ("[grid]\nbore = {from = 1, to = inf, count = 3}", "finite"),
+        ("[grid]\nbore = {from = 1, to = 2, count = 99999999999}", "split the sweep"),
+        ("[grid]\nheat_transfer.a = [60, 70]", 'quoted: "heat_transfer.a" ='),
+        ("[list]\nheat_transfer.a = [60, 70]", 'quoted: "heat_transfer.a" ='),
+        ("[fixed]\nheat_transfer.a = 60\n[grid]\nbore = [0.06]", 'quoted: "heat_transfer.a" ='),
+        ("[sobol]\ncount = 4\nranges.heat_transfer.a = [6, 7]", 'quoted: "heat_transfer.a" ='),
+        ("[grid]\nbore = [0.06]\n[list]\negr = [0.1]", "no more; has [grid] and [list]"),
+        ("[fixed]\nbore = 0.06\n[grid]\nbore = [0.06]", "bore stands in [fixed] and in [grid]"),
+        ("[sweep]\nrtol = 1\n[grid]\nbore = [0.06]", "from 1e-13 to 1e-3"),
+        ("[sweep]\nrtol = 'x'\n[grid]\nbore = [0.06]", "sweep.rtol = 'x': must be a number"),
+        ("[sobol]\ncount = 4\nseed = -1\nranges.bore = [0.05, 0.06]", "seed = -1"),
+        ("[grid]\nmoving_mass = [2.0]", "follows from the eight"),
         ("[grid]\nbore = {from = 1, to = 2, count = 1}", "count"),
         ("[sweep]\nmachine = 'thesis-bass'\n[grid]\nbore = [0.06]", "thesis-base"),
         ("[sweep]\nwarm = 1\n[grid]\nbore = [0.06]", "sweep.warm"),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.status import Status
-from saleg.sweep.points import Ranges, SweepError, box
+from saleg.sweep.points import Ranges, SweepError, box, checked_seed, refuse_too_many
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -76,10 +76,16 @@ def saltelli_points(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     from scipy.stats import qmc
 
     low, high = box(ranges)
-    if not isinstance(count, (int, np.integer)) or count < 2 or count & (count - 1):
+    if (
+        not isinstance(count, (int, np.integer))
+        or isinstance(count, bool)
+        or count < 2
+        or count & (count - 1)
+    ):
         raise SweepError(f"count = {count!r}: must be a power of two")
     d = len(low)
-    both = qmc.Sobol(2 * d, seed=seed).random(int(count))
+    refuse_too_many(int(count) * (d + 2))
+    both = qmc.Sobol(2 * d, seed=checked_seed(seed)).random(int(count))
     a, b = both[:, :d], both[:, d:]
     mixed = []
     for n in range(d):
