@@ -535,6 +535,16 @@ def test_figures_of_the_design(base_design):
     assert growing.get_ydata()[-1] < limit
 
 
+def test_a_short_engine_is_drawn_whole():
+    ax = saleg.design.evaluate(half_stroke=0.02, bore=0.1, port_location=0.3).draw()
+    ax.figure.canvas.draw()
+    renderer, page = ax.figure.canvas.get_renderer(), ax.figure.bbox
+    for text in (ax.title, ax.xaxis.label, *ax.texts):
+        box = text.get_window_extent(renderer)
+        assert page.x0 <= box.x0 <= box.x1 <= page.x1, text
+        assert page.y0 <= box.y0 <= box.y1 <= page.y1, text
+
+
 def test_geometry_of_an_engine_without_output():
     idle = Geometry.of(Parameters(), MassModel(), Operation(0.1, 40.0, 0.0))
     assert idle.mover_outer_diameter == 0.0

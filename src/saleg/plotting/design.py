@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 #: Thickness of walls in the drawing [mm], turns of a spring, and depth of a bearing [mm].
 WALL, TURNS, BEARING = 4.0, 9, 6.0
 HOUSING = "0.55"
+#: Most of a drawing's size, and the least width its title needs [inch].
+WIDEST, HIGHEST, NARROWEST = 10.6, 6.4, 4.5
 
 
 def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
@@ -49,7 +51,9 @@ def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
     depth = 0.5 * np.fmax(mm["mover_outer_diameter"], mm["bore"]) + 3.0 * WALL
     step = 0.035 * mm["head"] + 6.0
     bottom, top, end = -depth - 6.0 * step, depth + 2.0 * WALL, mm["head"] + 8.0 * WALL
-    ax = axes_or_new(ax, width=11.0, height=0.9 + 10.6 * (top - bottom) / (2.0 * end))
+    scale = min(WIDEST / (2.0 * end), HIGHEST / (top - bottom))
+    width, height = max(2.0 * end * scale, NARROWEST), (top - bottom) * scale
+    ax = axes_or_new(ax, width=width + 0.4, height=height + 1.0)
     for side in (-1.0, 1.0):
         _housing(ax, mm, side)
         _springs(ax, mm, side)

@@ -13,6 +13,7 @@ import numpy as np
 
 from saleg.plotting.style import LEFT_COLOUR, RIGHT_COLOUR, axes_or_new, finish, new_figure
 from saleg.status import Status
+from saleg.sweep.points import SweepError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -31,6 +32,9 @@ PANELS = (
     "power_density",
     "peak_pressure",
 )
+
+#: Figures that take the place of those a table has not.
+INSTEAD = ("moving_mass", "power", "peak_velocity")
 
 #: Ratio of the greatest to the least value beyond which an axis is logarithmic.
 WIDE = 40.0
@@ -136,9 +140,10 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     Parameters
     ----------
     table : DataFrame
-        From :func:`saleg.sweep.run` of designs with one input that varies.
+        From :func:`saleg.sweep.run`. Where further inputs vary there is a line for each of their
+        combinations.
     x : str
-        That input.
+        The input along the axes.
     ax : array of eight matplotlib.axes.Axes, optional
         New ones unless given.
 
@@ -146,15 +151,17 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     -------
     array of matplotlib.axes.Axes
     """
-    axes = _eight(ax, x)
-    ordered = table.sort_values(x)
-    ordered.attrs = table.attrs
-    for panel, name in zip(axes, _shown(table), strict=True):
-        at = values(ordered, x)
-        for kind, rows in kinds(ordered):
-            if rows.any():
-                _draw(panel, at, values(ordered, name), rows, kind)
+    shown = _shown(table, x)
+    _check(table, [x, *shown])
+    axes = _eight(ax)
+    lines = _lines(table, x)
+    for panel, name in zip(axes, shown, strict=False):
+        for line in lines:
+            for kind, rows in kinds(line):
+                if rows.any():
+                    _draw(panel, values(line, x), values(line, name), rows, kind)
         _dress(panel, table, x, name)
+    _hide(axes[len(shown) :])
     _legend(axes)
     return axes
 
@@ -178,14 +185,17 @@ def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     -------
     array of matplotlib.axes.Axes
     """
-    axes = _eight(ax, x)
+    shown = _shown(table, x)
+    _check(table, [x, "score", *shown])
+    axes = _eight(ax)
     kept = _orbits(table).sort_values("score")
     kept.attrs = table.attrs
-    for panel, name in zip(axes, _shown(table), strict=True):
+    for panel, name in zip(axes, shown, strict=False):
         dots = _cloud(panel, kept, [values(kept, x), values(kept, name)], kept["score"], 7.0)
         if np.nanmax(values(kept, name)) > WIDE * abs(np.nanmin(values(kept, name))):
-            panel.set_yscale("log")
+            _logarithmic(panel)
         _dress(panel, table, x, name)
+    _hide(axes[len(shown) :])
     axes[0].figure.colorbar(dots, ax=list(axes), label="score [-]", aspect=40, pad=0.01)
     axes[0].figure.suptitle(_count(table), fontsize="medium")
     return axes
@@ -212,6 +222,7 @@ def design_map(
     -------
     Axes3D
     """
+    _check(table, [x, y, z, colour])
     if ax is None:
         ax = new_figure(7.4, 5.8).add_subplot(projection="3d")
     kept = _orbits(table).sort_values(colour)
@@ -260,8 +271,43 @@ def indices(found: Indices, ax: Axes | None = None) -> Axes:
 
 
 def _orbits(table: pd.DataFrame) -> pd.DataFrame:
-    """Rows with a steady state."""
-    return table[table["status"] == str(Status.STEADY)]
+    """Rows with a steady state.
+
+    Raises
+    ------
+    SweepError
+        If there are none.
+    """
+    kept = table[table["status"] == str(Status.STEADY)]
+    if not len(kept):
+        raise SweepError(f"none of {len(table)} points has a steady state: nothing to draw")
+    return kept
+
+
+def _check(table: pd.DataFrame, names: list[str]) -> None:
+    """Refuse columns that are not there, hold no numbers or have no unit."""
+    units = table.attrs.get("units", {})
+    for name in ["status", *names]:
+        if name not in table:
+            raise SweepError(f"no column {name!r} to draw; there are {', '.join(map(str, table))}")
+        if name != "status" and table[name].dtype.kind not in "fiu":
+            raise SweepError(f"{name} holds no numbers to draw")
+        if name not in units:
+            raise SweepError(f"no unit of {name}: keep table.attrs of the table saleg made")
+
+
+def _lines(table: pd.DataFrame, x: str) -> list[pd.DataFrame]:
+    """Rows in order of an input, apart for every combination of the others."""
+    others = [
+        name
+        for name in table.attrs.get("inputs", ())
+        if name != x and name in table and np.ptp(table[name]) > 0.0
+    ]
+    parts = [part for _, part in table.groupby(others)] if others else [table]
+    lines = [part.sort_values(x) for part in parts]
+    for line in lines:
+        line.attrs = table.attrs
+    return lines
 
 
 def _cloud(
@@ -296,14 +342,20 @@ def _count(table: pd.DataFrame) -> str:
     )
 
 
-def _shown(table: pd.DataFrame) -> list[str]:
-    """Columns of the panels; the moving mass where there are no multipliers."""
-    return [name if name in table else "moving_mass" for name in PANELS]
+def _shown(table: pd.DataFrame, x: str) -> list[str]:
+    """Columns of the panels; others in place of what a table without multipliers or score lacks."""
+    wanted = [name for name in (*PANELS, *INSTEAD) if name in table and name != x]
+    if not wanted:
+        raise SweepError("no point has figures: nothing to draw; the messages of the rows say why")
+    return wanted[: len(PANELS)]
 
 
-def _eight(ax: Any, x: str) -> np.ndarray:
+def _eight(ax: Any) -> np.ndarray:
     if ax is not None:
-        return np.ravel(ax)
+        axes = np.ravel(ax)
+        if len(axes) != len(PANELS):
+            raise SweepError(f"{len(axes)} axes given: {len(PANELS)} are needed")
+        return axes
     figure = new_figure(13.2, 6.2)
     return np.ravel(figure.subplots(2, 4, sharex=True))
 
@@ -320,6 +372,22 @@ def _draw(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind: Kin
         )
         return
     panel.plot(x, np.where(rows, y, np.nan), label=kind.label, **kind.look)
+
+
+def _hide(axes: np.ndarray) -> None:
+    """Panels there is nothing for."""
+    for panel in axes:
+        panel.set_visible(False)
+
+
+def _logarithmic(panel: Axes) -> None:
+    """Logarithmic axis with plain numbers, some in every decade."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    panel.set_yscale("log")
+    panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    panel.yaxis.set_minor_formatter(NullFormatter())
 
 
 def _dress(panel: Axes, table: pd.DataFrame, x: str, name: str) -> None:
