@@ -396,6 +396,12 @@ def test_damaged_folders_are_named(tmp_path, name, damage):
         sweep.run(sweep.grid(SMALL), folder=folder, multipliers=False)
 
 
+def test_no_points_are_a_sweep_too(tmp_path):
+    points = pd.DataFrame({"bore": np.zeros(0)})
+    assert len(sweep.run(points, folder=tmp_path / "s")) == 0
+    assert len(sweep.run(points, folder=tmp_path / "s")) == 0
+
+
 def test_missing_and_binary_files_are_named(tmp_path):
     folder = tmp_path / "s"
     sweep.run(sweep.grid(SMALL), folder=folder, multipliers=False)

@@ -92,6 +92,8 @@ def _value(value: Any, name: str) -> Any:
         return repr(value)
     if isinstance(value, (tuple, list)):
         return [_value(item, f"{name}[{n}]") for n, item in enumerate(value)]
+    if isinstance(value, (set, frozenset)):
+        return sorted(repr(_value(item, f"{name}{{}}")) for item in value)
     if isinstance(value, dict):
         return {repr(key): _value(item, f"{name}[{key!r}]") for key, item in value.items()}
     if isinstance(value, np.ndarray) and value.dtype != object:

@@ -149,7 +149,8 @@ class Folder:
             raise SweepError(f"{self.path / DESCRIPTION} is damaged: it lacks inputs or count")
         table = read_table(path)
         names = [str(name) for name in table]
-        if names[: len(inputs)] != list(inputs) or "status" not in names:
+        results = {"status"} if known["count"] else set()
+        if names[: len(inputs)] != list(inputs) or not results <= set(names):
             raise _damaged(path, "its columns are not those of this sweep")
         if len(table) != known["count"]:
             raise _damaged(path, f"it has {len(table)} rows in place of {known['count']}")
