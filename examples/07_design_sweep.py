@@ -44,7 +44,8 @@ def main(folder: Path = PICTURES) -> None:
     print(found.masses, f"error {found.mass_error:.1e}")
     assert abs(found.moving_mass / 2.39 - 1.0) < 0.03
     roomy = saleg.design.evaluate(Design(masses=MassModel.with_crankcase()))
-    roomy.draw().figure.savefig(folder / "design_engine.png", dpi=120)
+    found.draw().figure.savefig(folder / "design_engine.png", dpi=120)
+    roomy.draw().figure.savefig(folder / "design_engine_roomy.png", dpi=120)
     drawings.alternator_map()[0].figure.savefig(folder / "design_alternator.png", dpi=80)
     drawings.natural_frequency().figure.savefig(folder / "design_springs.png", dpi=80)
 

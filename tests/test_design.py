@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -269,6 +270,28 @@ def test_a_neighbour_is_a_start(base_design):
     assert warm.quick_performance.power == pytest.approx(cold.quick_performance.power, rel=1e-5)
 
 
+def test_an_orbit_away_from_the_standard_starts_is_followed_there():
+    """The piston reaches the port down to 0.0422; cold starts lead nowhere below 0.053."""
+    found = saleg.design.evaluate(port_location=0.043)
+    assert found.status is Status.STEADY
+    assert found.method == "continuation"
+    assert "followed from the base case" in found.message
+    assert found.stable
+    assert abs(found.mass_error) < 1.1e-6
+    lost = saleg.design.evaluate(port_location=0.042)
+    assert lost.status is Status.STALLED
+    assert "no orbit could be followed" in lost.message
+    # Its piston would turn before it has opened the port.
+    assert found.performance.stroke < 0.2 * (1.0 - 2.0 * 0.042)
+
+
+def test_a_row_without_an_orbit_has_no_mass():
+    table = saleg.design.evaluate_many(pd.DataFrame({"port_location": [0.335, 0.03]}))
+    assert list(table.status) == ["steady", "stalled"]
+    for name in ("moving_mass", "power_density", "frequency_ratio"):
+        assert table[name].notna().tolist() == [True, False], name
+
+
 def test_air_springs_are_faster(base_design):
     """4.4: without moving mass the springs no longer cost frequency and power density."""
     light = saleg.design.evaluate(Design(masses=MassModel(springs=AirSprings())))
@@ -291,6 +314,98 @@ def test_mass_models_can_be_replaced():
     found = saleg.design.evaluate(Design(masses=MassModel(rod=HeavyRod(0.7))))
     assert found.masses.rod == 0.7
     assert abs(found.mass_error) < 1.1e-6
+
+
+@dataclass(frozen=True)
+class JumpyRod:
+    """A rod whose mass jumps where its own orbit lies."""
+
+    def mass(self, parameters, operation):
+        return 0.3 if operation.stroke > 0.1806 else 2.0
+
+
+def test_an_open_loop_is_no_steady_state():
+    """No orbit has the mass of its components: the simulation's own verdict does not count."""
+    found = saleg.design.evaluate(Design(masses=MassModel(rod=JumpyRod())))
+    assert abs(found.mass_error) > 0.1
+    assert found.status is Status.UNSTEADY
+    assert not found.found
+    assert "mass of the components still differs" in found.message
+
+
+def test_the_loop_closes_through_simulations_as_tightly():
+    """One misfire long ago: nothing for a return map, and yet the same mass."""
+    design = Design().replace({"misfires": saleg.laws.ScheduledMisfires(first=3.0)})
+    found = saleg.design.evaluate(design)
+    assert (found.method, found.status) == ("simulation", Status.STEADY)
+    assert abs(found.mass_error) <= 1e-6
+    assert found.moving_mass == pytest.approx(saleg.design.evaluate().moving_mass, rel=1e-5)
+
+
+def test_an_alternator_of_ones_own_needs_no_diameter():
+    design = Design(masses=MassModel(alternator=HeavyRod(0.8)))
+    found = saleg.design.evaluate(design)
+    assert found.found
+    assert math.isnan(found.geometry.mover_outer_diameter)
+    texts = [text.get_text() for text in found.draw().texts]
+    assert not any("D_o" in text for text in texts)
+    table = sweep.run(sweep.grid({"bore": [0.064]}), design)
+    assert table.status[0] == "steady"
+    assert np.isnan(table.alternator_diameter[0])
+
+
+@dataclass(frozen=True)
+class WrongRod:
+    """A rod that weighs whatever it is told."""
+
+    given: object
+
+    def mass(self, parameters, operation):
+        return self.given
+
+
+@pytest.mark.parametrize("given", [-10.0, math.nan, "heavy", None, np.array([0.3])])
+def test_models_that_give_no_mass_are_named(given):
+    with pytest.raises(saleg.design.InvalidMass, match=r"masses\.rod: WrongRod\.mass gave"):
+        saleg.design.evaluate(Design(masses=MassModel(rod=WrongRod(given))))
+
+
+def test_what_is_no_design_is_refused():
+    for wrong in ("thesis", {"bore": 0.06}, saleg.machines.thesis_base()):
+        with pytest.raises(saleg.design.InvalidDesign, match=r"must be a saleg\.design\.Design"):
+            saleg.design.evaluate(wrong)
+    with pytest.raises(saleg.design.InvalidDesign, match=r"must be a saleg\.design\.Design"):
+        saleg.design.solve(None)
+    for part in ({"parameters": {"bore": 0.06}}, {"laws": None}, {"masses": 3.0}):
+        with pytest.raises(saleg.design.InvalidDesign, match="must be a"):
+            Design(**part)
+    with pytest.raises(saleg.design.InvalidDesign, match="not a class"):
+        saleg.design.evaluate(Design(masses=MassModel(rod=AirSprings)))
+    bounce = saleg.BounceChamber(bore=0.064, half_stroke=0.1, pressure=2.5e5)
+    engine = saleg.Engine(translator=saleg.Translator(mass=2.0), left=bounce, right=bounce)
+    with pytest.raises(saleg.design.InvalidDesign, match="cylinders with ports"):
+        saleg.design.evaluate(Design(laws=engine))
+
+
+@pytest.mark.parametrize(
+    ("values", "match"),
+    [
+        ({"bore": 64.0}, "given in mm?"),
+        ({"half_stroke": 100.0}, "given in mm?"),
+        ({"intake_pressure": 1.05}, "given in bar?"),
+        ({"intake_temperature": 51.9}, "given in degrees Celsius?"),
+        ({"egr": 12.0}, "given in %?"),
+    ],
+)
+def test_other_units_are_suspected(values, match):
+    with pytest.raises(saleg.design.InvalidDesign, match=re.escape(match)):
+        saleg.design.evaluate(**values)
+
+
+def test_a_name_is_suggested_once():
+    with pytest.raises(saleg.UnknownPath) as error:
+        saleg.design.evaluate(boer=0.06)
+    assert str(error.value).count("'bore'") == 1
 
 
 def test_what_fails_is_said():
@@ -364,6 +479,47 @@ def test_score_rewards_what_figure_85_rewards():
     assert score({**good, "efficiency": math.nan}) == 0.0
 
 
+def test_score_knows_unstable_orbits_and_engines_that_deliver_nothing():
+    good = {
+        "efficiency": 0.45,
+        "stability": 1e-7,
+        "compression_ratio": 20.0,
+        "peak_pressure": 100e5,
+    }
+    score = Score()
+    best = score(good)
+    assert score({**good, "largest_multiplier": 0.9}) == best
+    assert score({**good, "largest_multiplier": math.nan}) == best
+    assert score({**good, "largest_multiplier": 1.1}) == pytest.approx(best - 3.0 / 8.0)
+    assert score({**good, "efficiency": 0.0}) == 0.0
+    table = saleg.design.evaluate_many(
+        pd.DataFrame({"bore": [0.064, 0.040], "intake_temperature": [600.0, 325.0]}),
+        multipliers=True,
+    )
+    assert list(table.status) == ["idling", "steady"]
+    assert not table.stable[1]
+    assert table.score[0] == 0.0
+    assert table.score[1] < 5.0 / 8.0
+    assert score(table).tolist() == table.score.tolist()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "match"),
+    [
+        ({"efficiency": -1.0}, "efficiency = -1"),
+        ({"target_efficiency": 0.0}, "target_efficiency"),
+        ({"least_compression_ratio": 40.0}, "must be >= 40"),
+        (
+            {"efficiency": 0.0, "stability": 0.0, "compression_ratio": 0.0, "peak_pressure": 0.0},
+            "one of the four weights",
+        ),
+    ],
+)
+def test_scores_that_make_no_sense_are_refused(wrong, match):
+    with pytest.raises(saleg.SalegError, match=match):
+        Score(**wrong)
+
+
 def test_figures_of_the_design(base_design):
     ax = base_design.draw()
     assert "789 mm" in ax.get_title()
@@ -377,6 +533,16 @@ def test_figures_of_the_design(base_design):
     assert constant.get_ydata()[-1] > 2.0 * growing.get_ydata()[-1]
     limit = math.sqrt(2.0 * 35000.0) / (2.0 * math.pi)
     assert growing.get_ydata()[-1] < limit
+
+
+def test_a_short_engine_is_drawn_whole():
+    ax = saleg.design.evaluate(half_stroke=0.02, bore=0.1, port_location=0.3).draw()
+    ax.figure.canvas.draw()
+    renderer, page = ax.figure.canvas.get_renderer(), ax.figure.bbox
+    for text in (ax.title, ax.xaxis.label, *ax.texts):
+        box = text.get_window_extent(renderer)
+        assert page.x0 <= box.x0 <= box.x1 <= page.x1, text
+        assert page.y0 <= box.y0 <= box.y1 <= page.y1, text
 
 
 def test_geometry_of_an_engine_without_output():

@@ -15,7 +15,10 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import nullcontext
+from numbers import Integral
 from typing import TypeVar
+
+from saleg.errors import SalegError
 
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")
@@ -24,6 +27,30 @@ Result = TypeVar("Result")
 UNDER_WAY = 4
 #: What is raised in place of a result when workers, not the work, have failed.
 LOST = (BrokenExecutor, CancelledError, ConnectionError)
+
+
+class WorkersError(SalegError, ValueError):
+    """Nobody could do the work so."""
+
+
+def check_workers(executor: Executor | None, workers: int | None) -> None:
+    """Refuse what can do no work.
+
+    Raises
+    ------
+    WorkersError
+    """
+    if workers is not None and not (
+        isinstance(workers, Integral) and not isinstance(workers, bool) and 1 <= workers < 2**31
+    ):
+        raise WorkersError(f"workers = {workers!r}: must be a whole number >= 1")
+    if executor is not None and (
+        isinstance(executor, type) or not callable(getattr(executor, "submit", None))
+    ):
+        raise WorkersError(
+            f"executor = {executor!r}: must be an object with a method submit, as "
+            "ThreadPoolExecutor(2) is"
+        )
 
 
 def completed(

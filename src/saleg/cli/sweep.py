@@ -7,14 +7,10 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from saleg.errors import SalegError
+from saleg.workers import WorkersError
 
 if TYPE_CHECKING:
     import pandas as pd
-
-
-class WorkersError(SalegError, ValueError):
-    """A number of workers that makes no sense."""
 
 
 def add_to(commands: Any) -> None:
@@ -49,6 +45,7 @@ def sweep(options: argparse.Namespace) -> bool:
         )
     for status, count in table["status"].value_counts().items():
         print(f"{count} {status}")
+    _complain(table)
     names = ["results.csv", *_pictures(table, folder)]
     print(f"wrote {folder}: {', '.join(names)}")
     return bool((table["status"] == "steady").all())
@@ -62,6 +59,13 @@ def _executor(options: argparse.Namespace) -> Any:
     from multiprocessing import get_context
 
     return ProcessPoolExecutor(options.workers, mp_context=get_context("spawn"))
+
+
+def _complain(table: pd.DataFrame) -> None:
+    """Say what most of the failed points have to say."""
+    messages = table["message"][table["status"] != "steady"].value_counts()
+    if len(messages):
+        print(f"{messages.iloc[0]} of the failed: {messages.index[0]}")
 
 
 def _say(done: int, total: int) -> None:

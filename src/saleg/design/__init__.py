@@ -23,6 +23,7 @@ from saleg.design.masses import (
     AlternatorMover,
     ComponentMass,
     ConnectingRod,
+    InvalidMass,
     Masses,
     MassModel,
     MechanicalSprings,
@@ -31,7 +32,7 @@ from saleg.design.masses import (
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 from saleg.design.results import DesignedState
-from saleg.design.score import Score
+from saleg.design.score import InvalidScore, Score
 
 __all__ = [
     "AirSprings",
@@ -42,6 +43,8 @@ __all__ = [
     "DesignedState",
     "Geometry",
     "InvalidDesign",
+    "InvalidMass",
+    "InvalidScore",
     "MassModel",
     "Masses",
     "MechanicalSprings",

@@ -12,7 +12,7 @@ from typing import Any
 from saleg.design.formulas import port_clearance
 from saleg.design.masses import MassModel
 from saleg.design.parameters import Parameters
-from saleg.engine import Engine
+from saleg.engine import Cylinder, Engine
 from saleg.errors import UnknownPath, WrongFields
 from saleg.laws import BlairViscousFriction
 from saleg.machines import thesis_base
@@ -77,6 +77,22 @@ class Design:
     parameters: Parameters = field(default_factory=Parameters)
     laws: Engine = field(default_factory=thesis_laws)
     masses: MassModel = field(default_factory=MassModel)
+
+    def __post_init__(self) -> None:
+        """Refuse what is of another kind.
+
+        Raises
+        ------
+        InvalidDesign
+        """
+        kinds = {"parameters": Parameters, "laws": Engine, "masses": MassModel}
+        wrong = [
+            Problem(name, getattr(self, name), "-", f"must be a {kind.__name__}")
+            for name, kind in kinds.items()
+            if not isinstance(getattr(self, name), kind)
+        ]
+        if wrong:
+            raise InvalidDesign(wrong)
 
     def engine(self, moving_mass: float) -> Engine:
         """The engine of this design with a given moving mass [kg]."""
@@ -170,7 +186,8 @@ class Design:
                 raise UnknownPath(f"no '{path}' in the mass models")
             return self.masses, chain
         if path not in known_paths(self.laws):
-            near = difflib.get_close_matches(str(path), [*NAMES, *known_paths(self.laws)], 3, 0.5)
+            known = dict.fromkeys([*NAMES, *known_paths(self.laws)])
+            near = difflib.get_close_matches(str(path), list(known), 3, 0.5)
             hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else ""
             raise UnknownPath(f"no '{path}' in a design{hint}")
         return self.laws, None
@@ -183,13 +200,45 @@ class Design:
         InvalidDesign
         InvalidEngine
         """
-        found = problems(self.parameters) + problems(self.masses, MASSES)
+        found = [_hinted(problem) for problem in problems(self.parameters)]
+        found += problems(self.masses, MASSES)
         for slot in fields(self.masses):
             model = getattr(self.masses, slot.name)
-            if not callable(getattr(model, "mass", None)):
-                found.append(Problem(f"masses.{slot.name}", model, "-", "must have a method mass"))
-        if not self.laws.is_mirrored:
-            found.append(Problem("laws", self.laws.name, "-", "must be a mirrored engine"))
+            if isinstance(model, type) or not callable(getattr(model, "mass", None)):
+                need = "must be an object (not a class) and must have a method mass"
+                found.append(Problem(f"masses.{slot.name}", model, "-", need))
+        found += self._problems_of_laws()
         if found:
             raise InvalidDesign(found)
         self.engine(1.0).validate()
+
+    def _problems_of_laws(self) -> list[Problem]:
+        """What keeps the eight parameters from being put into the engine."""
+        laws, wrong = self.laws, []
+        springs: Any = laws.springs
+        if not laws.is_mirrored:
+            wrong.append("must be a mirrored engine")
+        elif not isinstance(laws.left, Cylinder):
+            wrong.append("must have cylinders with ports on both sides")
+        if "stiffness" not in {item.name for item in fields(springs)}:
+            wrong.append("must have springs with a stiffness")
+        return [Problem("laws", laws.name, "-", why) for why in wrong]
+
+
+#: What people write a parameter in by mistake.
+READ_IN = {
+    "bore": "mm",
+    "half_stroke": "mm",
+    "intake_pressure": "bar",
+    "intake_temperature": "degrees Celsius",
+    "port_location": "%",
+    "egr": "%",
+}
+
+
+def _hinted(problem: Problem) -> Problem:
+    """A problem that asks whether the number was given in another unit."""
+    likely = READ_IN.get(problem.path)
+    if likely is None or not is_number(problem.value) or not 0.0 < problem.value < math.inf:
+        return problem
+    return problem._replace(allowed=f"{problem.allowed}; given in {likely}?")

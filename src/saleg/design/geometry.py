@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 
 from saleg.design import formulas
-from saleg.design.masses import ConnectingRod, MassModel
+from saleg.design.masses import ComponentMass, ConnectingRod, MassModel, SizedMover
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 
@@ -19,7 +19,7 @@ class Geometry:
     Attributes
     ----------
     mover_outer_diameter, mover_inner_diameter : float
-        Alternator mover, D_o and D_i [m].
+        Alternator mover, D_o and D_i [m]; NaN if its model does not tell.
     rod_diameter : float
         Connecting rod, D_R [m].
     bore : float
@@ -50,17 +50,17 @@ class Geometry:
     def of(cls, parameters: Parameters, masses: MassModel, operation: Operation) -> Geometry:
         """Geometry of a design at its steady state (Eq. 60-64).
 
-        A rod without a method ``crown`` leaves the crown where Eq. 63 puts it.
+        A rod without a method ``crown`` leaves the crown where Eq. 63 puts it; a mover without
+        ``outer_diameter`` and ``inner_ratio`` has no known diameters.
         """
-        mover = masses.alternator
         length = parameters.half_stroke
-        outer = mover.outer_diameter(operation)
+        outer, inner = _diameters(masses.alternator, operation)
         bearing = formulas.bearing_position(operation.stroke, length)
         rod = masses.rod if isinstance(masses.rod, ConnectingRod) else ConnectingRod()
         crown = rod.crown(parameters, operation)
         return cls(
             mover_outer_diameter=outer,
-            mover_inner_diameter=mover.inner_ratio * outer,
+            mover_inner_diameter=inner,
             rod_diameter=math.sqrt(4.0 * formulas.ROD_AREA / math.pi),
             bore=parameters.bore,
             mover_end=operation.stroke,
@@ -78,3 +78,11 @@ class Geometry:
     def to_dict(self) -> dict[str, float]:
         """All dimensions by name [m]."""
         return dataclasses.asdict(self)
+
+
+def _diameters(mover: ComponentMass, operation: Operation) -> tuple[float, float]:
+    """Outer and inner diameter of the mover [m]."""
+    if not isinstance(mover, SizedMover):
+        return math.nan, math.nan
+    outer = mover.outer_diameter(operation)
+    return outer, mover.inner_ratio * outer

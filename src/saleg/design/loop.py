@@ -9,22 +9,25 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from itertools import chain, repeat
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.design.designs import Design
+from saleg.design.designs import Design, InvalidDesign
 from saleg.design.operation import Operation
+from saleg.design.parameters import Parameters
 from saleg.design.results import DesignedState
 from saleg.engine import Engine, Translator
 from saleg.kernel import layout
 from saleg.kernel.orbit import read_vector, write_vector
 from saleg.prepare import State, prepare
+from saleg.quantities import Problem
 from saleg.return_map import ReturnMap, is_symmetric, repeats_itself
 from saleg.start import CompressedCharge, Start
+from saleg.status import Status
 from saleg.steady import (
     DEFAULT_TOLERANCE,
     MOST_MAPS,
@@ -49,8 +52,10 @@ Way = Callable[[State, Design, Operation], None]
 LAW = ("mass_fixed", "mass_per_stroke", "mass_per_work")
 #: Simulations that try to find mass and motion together where no fixed point is found, and strokes
 #: at their end over which stroke, frequency and power are averaged.
-MOST_SIMULATIONS = 3
+MOST_SIMULATIONS = 15
 LAST_STROKES = 20
+#: Continuation from the base case: first and least step as shares of the way, and most steps.
+FIRST_STEP, LEAST_STEP, MOST_STEPS = 0.25, 1.0 / 512.0, 60
 
 
 class Spent(NamedTuple):
@@ -79,8 +84,11 @@ def solve(
     Returns
     -------
     DesignedState
-        Always with a status and a message. Without a steady state masses and dimensions are those
-        for the mean of the last simulated strokes.
+        Always with a status and a message. Where the standard starts lead to no orbit it is
+        followed from the base case with the same laws, all eight parameters changing together; the
+        method is then "continuation". Without a steady state masses and dimensions are those for
+        the mean of the last simulated strokes, and the moving mass is a guess. "unsteady" is also
+        what repeats itself with another mass than that of its components.
 
     Raises
     ------
@@ -96,6 +104,7 @@ def solve(
     (2.33, True)
     """
     check_tolerance(rtol)
+    _check_design(design)
     design.validate()
     engine = design.engine(1.0)
     guess = _mass(design, Operation.guess(engine))
@@ -103,16 +112,17 @@ def solve(
         why = "a law depends on time or counts charges"
         return _simulated(design, guess, rtol, Spent(), why)
     mirrored = is_symmetric(engine)
-    spent = Spent()
     charts = _charts(design, guess, rtol, mirrored, near)
     one_by_one = _charts(design, guess, rtol, mirrored, None)
-    for chart, way in chain(zip(charts, repeat(_set_law)), zip(one_by_one, repeat(_set_mass))):
-        orbit = _closed(design, chart, rtol, way)
-        spent = Spent(spent.half_cycles + orbit.half_cycles, spent.evaluations + chart.evaluations)
-        if orbit.found:
-            steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
-            return _closed_message(DesignedState.of(steady, design, orbit.operation))
-    return _simulated(design, guess, rtol, spent, "the return map did not settle")
+    ways = chain(zip(charts, repeat(_set_law)), zip(one_by_one, repeat(_set_mass)))
+    found, spent = _first_orbit(design, ways, rtol, Spent())
+    if found is not None:
+        return _closed_message(found)
+    found, spent = _continued(design, rtol, mirrored, spent)
+    if found is not None:
+        return _continued_message(found)
+    why = "the return map did not settle, and no orbit could be followed from the base case"
+    return _simulated(design, guess, rtol, spent, why)
 
 
 def evaluate(
@@ -146,7 +156,15 @@ def evaluate(
     >>> found.stable, round(found.geometry.mover_outer_diameter, 3)
     (True, 0.083)
     """
-    return solve((design or Design()).replace(values), rtol=rtol)
+    design = Design() if design is None else design
+    _check_design(design)
+    return solve(design.replace(values), rtol=rtol)
+
+
+def _check_design(design: Any) -> None:
+    if not isinstance(design, Design):
+        need = "must be a saleg.design.Design, as Design().replace(bore=0.06); names go as keywords"
+        raise InvalidDesign([Problem("design", design, "-", need)])
 
 
 def _mass(design: Design, operation: Operation) -> float:
@@ -157,14 +175,84 @@ def _charts(
     design: Design, guess: float, rtol: float, mirrored: bool, near: DesignedState | None
 ) -> Iterator[ReturnMap]:
     """Return maps to try."""
-    if near is not None and near.replay is not None:
-        engine = design.engine(near.moving_mass)
-        state = near_state(engine, near)
-        if state is not None:
-            yield ReturnMap.of(engine, state, rtol, mirrored)
+    if near is not None:
+        yield from _near_chart(design, rtol, mirrored, near)
     engine = design.engine(guess)
     for start in starts(engine):
         yield _chart(engine, start, rtol, mirrored)
+
+
+def _first_orbit(
+    design: Design, ways: Iterable[tuple[ReturnMap, Way]], rtol: float, spent: Spent
+) -> tuple[DesignedState | None, Spent]:
+    """The first orbit some return maps lead to, and the work done so far."""
+    for chart, way in ways:
+        orbit = _closed(design, chart, rtol, way)
+        spent = Spent(spent.half_cycles + orbit.half_cycles, spent.evaluations + chart.evaluations)
+        if orbit.found:
+            steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
+            return DesignedState.of(steady, design, orbit.operation), spent
+    return None, spent
+
+
+def _continued(
+    design: Design, rtol: float, mirrored: bool, spent: Spent
+) -> tuple[DesignedState | None, Spent]:
+    """Orbit followed from the base case with the same laws, all parameters changing together.
+
+    A step that finds no orbit is halved. What lies beyond a fold is not found so.
+    """
+    origin, goal = dataclasses.replace(design, parameters=Parameters()), design.parameters
+    if goal == origin.parameters:
+        return None, spent
+    guess = _mass(origin, Operation.guess(origin.engine(1.0)))
+    ways = zip(_charts(origin, guess, rtol, mirrored, None), repeat(_set_law))
+    near, spent = _first_orbit(origin, ways, rtol, spent)
+    share, step = 0.0, FIRST_STEP
+    for _ in range(MOST_STEPS):
+        if near is None or step < LEAST_STEP:
+            break
+        ahead = min(share + step, 1.0)
+        target = design if ahead == 1.0 else _between(origin, goal, ahead)
+        found, spent = _from_near(target, rtol, mirrored, near, spent)
+        if found is None:
+            step *= 0.5
+        elif ahead == 1.0:
+            return found, spent
+        else:
+            near, share, step = found, ahead, 1.5 * step
+    return None, spent
+
+
+def _between(origin: Design, goal: Parameters, share: float) -> Design:
+    """Design a share of the way from one to the parameters of another."""
+    ends = dataclasses.asdict(origin.parameters), dataclasses.asdict(goal)
+    return origin.replace({name: a + share * (ends[1][name] - a) for name, a in ends[0].items()})
+
+
+def _from_near(
+    design: Design, rtol: float, mirrored: bool, near: DesignedState, spent: Spent
+) -> tuple[DesignedState | None, Spent]:
+    """Orbit of a design from that of its neighbour alone."""
+    ways = (
+        (chart, way)
+        for way in (_set_law, _set_mass)
+        for chart in _near_chart(design, rtol, mirrored, near)
+    )
+    found, spent = _first_orbit(design, ways, rtol, spent)
+    return (found if found is not None and found.found else None), spent
+
+
+def _near_chart(
+    design: Design, rtol: float, mirrored: bool, near: DesignedState
+) -> Iterator[ReturnMap]:
+    """Return map that begins at a neighbour's orbit, if it can."""
+    if near.replay is None:
+        return
+    engine = design.engine(near.moving_mass)
+    state = near_state(engine, near)
+    if state is not None:
+        yield ReturnMap.of(engine, state, rtol, mirrored)
 
 
 def _chart(engine: Engine, start: Start, rtol: float, mirrored: bool) -> ReturnMap:
@@ -257,6 +345,12 @@ def _closed_message(state: DesignedState) -> DesignedState:
     return state
 
 
+def _continued_message(state: DesignedState) -> DesignedState:
+    state.method = "continuation"
+    state.message += "; none was found from the standard starts, it was followed from the base case"
+    return _closed_message(state)
+
+
 def _simulated(design: Design, mass: float, rtol: float, spent: Spent, why: str) -> DesignedState:
     """Simulate and size the components for how that ends, until both agree or never will."""
     for _ in range(MOST_SIMULATIONS):
@@ -267,6 +361,11 @@ def _simulated(design: Design, mass: float, rtol: float, spent: Spent, why: str)
             return DesignedState.of(steady, design, Operation.guess(steady.engine))
         state = DesignedState.of(steady, design, Operation.of_strokes(strokes))
         if not steady.found or abs(state.mass_error) <= MASS_TOLERANCE * rtol:
-            break
+            return state
         mass, spent = state.masses.total, Spent(steady.half_cycles, steady.evaluations)
+    state.status = Status.UNSTEADY
+    state.message += (
+        f"; but after {MOST_SIMULATIONS} simulations the mass of the components still differs from "
+        f"that of the orbit by {state.mass_error:.1e}"
+    )
     return state

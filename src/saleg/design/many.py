@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING
@@ -53,6 +54,8 @@ def design_row(found: DesignedState, multipliers: bool) -> Row:
     """Row of a design: status, message, figures of the cycle and of the components, score."""
     row = steady_row(found, multipliers, found.shown_performance)
     row |= found.component_figures
+    if not found.found:
+        row["moving_mass"] = math.nan  # of what was simulated, a guess
     row["score"] = float(Score()(row))
     return row
 

@@ -8,12 +8,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 from saleg.design import formulas
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
-from saleg.quantities import quantity
+from saleg.errors import SalegError
+from saleg.quantities import is_number, quantity
+
+
+class InvalidMass(SalegError, ValueError):
+    """A mass model that gives no mass; names it."""
 
 
 class ComponentMass(Protocol):
@@ -21,6 +26,18 @@ class ComponentMass(Protocol):
 
     def mass(self, parameters: Parameters, operation: Operation) -> float:
         """Moving mass of the component [kg]."""
+
+
+@runtime_checkable
+class SizedMover(Protocol):
+    """What a model of the mover offers if its diameters are to be known."""
+
+    @property
+    def inner_ratio(self) -> float:
+        """Inner over outer diameter [-]."""
+
+    def outer_diameter(self, operation: Operation) -> float:
+        """Outer diameter [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,10 +177,9 @@ class MassModel:
 
     Parameters
     ----------
-    alternator : AlternatorMover
-        Also gives the diameters of the mover.
-    pistons, rod, springs : ComponentMass
-        Anything with a method ``mass(parameters, operation)``.
+    alternator, pistons, rod, springs : ComponentMass
+        Anything with a method ``mass(parameters, operation)``. Diameters of the mover are NaN
+        unless its model also has ``outer_diameter(operation)`` and ``inner_ratio``.
 
     Examples
     --------
@@ -172,14 +188,14 @@ class MassModel:
     0.0
     """
 
-    alternator: AlternatorMover = field(default_factory=AlternatorMover)
+    alternator: ComponentMass = field(default_factory=AlternatorMover)
     pistons: ComponentMass = field(default_factory=PistonHeads)
     rod: ComponentMass = field(default_factory=ConnectingRod)
     springs: ComponentMass = field(default_factory=MechanicalSprings)
 
     @classmethod
     def with_crankcase(cls) -> MassModel:
-        """The reading that meets the masses of Table 9 to 0.3 %: room beneath the pistons.
+        """The reading that meets the masses of Table 9 to 0.4 %: room beneath the pistons.
 
         The rod is longer by 2 L, the alternator of 820 kg/m^3 (docs/design.md).
 
@@ -193,10 +209,18 @@ class MassModel:
         return cls(alternator=AlternatorMover(density=820.0), rod=ConnectingRod(crankcase=1.0))
 
     def masses(self, parameters: Parameters, operation: Operation) -> Masses:
-        """Masses of the components at an operating point."""
-        return Masses(
-            alternator=self.alternator.mass(parameters, operation),
-            pistons=self.pistons.mass(parameters, operation),
-            rod=self.rod.mass(parameters, operation),
-            springs=self.springs.mass(parameters, operation),
-        )
+        """Masses of the components at an operating point.
+
+        Raises
+        ------
+        InvalidMass
+            If a model gives no mass.
+        """
+        found = [getattr(self, name).mass(parameters, operation) for name in Masses._fields]
+        for name, mass in zip(Masses._fields, found, strict=True):
+            if not is_number(mass) or not 0.0 <= float(mass) < math.inf:
+                raise InvalidMass(
+                    f"masses.{name}: {type(getattr(self, name)).__name__}.mass gave {mass!r} at "
+                    f"{operation}; it must give a number >= 0 [kg]"
+                )
+        return Masses(*map(float, found))

@@ -31,7 +31,8 @@ class DesignedState(SteadyState):
     masses : Masses
         Moving masses by component at that operation [kg].
     mass_error : float
-        Sum of `masses` over the moving mass the orbit was computed with, less one [-].
+        Sum of `masses` over the moving mass the orbit was computed with, less one [-]; where no
+        orbit was found that mass is a guess.
     """
 
     design: Design = field(repr=False)
@@ -63,13 +64,16 @@ class DesignedState(SteadyState):
 
     @property
     def component_figures(self) -> dict[str, float]:
-        """What the design adds to the figures of the cycle; units in :data:`UNITS`."""
+        """What the design adds to the figures of the cycle; units in :data:`UNITS`.
+
+        Without a steady state no mass belongs to the engine: what depends on it is NaN.
+        """
         p, engine = self.shown_performance, self.engine
         groups = from_engine(engine) if self.design.parameters.spring_stiffness > 0.0 else None
         area = 0.25 * math.pi * self.design.parameters.bore**2
         masses = {f"{name}_mass": value for name, value in self.masses._asdict().items()}
         figures: dict[str, float] = {
-            "power_density": p.power / self.moving_mass,
+            "power_density": p.power / self.moving_mass if self.found else math.nan,
             "displacement": 2.0 * area * p.stroke,
             "relative_stroke": p.stroke / engine.maximum_stroke,
             "alternator_diameter": self.geometry.mover_outer_diameter,
@@ -84,7 +88,8 @@ class DesignedState(SteadyState):
         if groups is not None:
             figures["dimensionless_pressure"] = groups.intake_pressure
             figures["dimensionless_heat"] = groups.heat
-            figures["frequency_ratio"] = groups.frequency_ratio(p.frequency)
+            if self.found:
+                figures["frequency_ratio"] = groups.frequency_ratio(p.frequency)
         return figures
 
     def draw(self, ax: Any = None) -> Any:

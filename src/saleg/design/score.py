@@ -2,7 +2,8 @@
 
 The figure's curves are not tabulated. Shapes, targets and tolerances here are those the thesis'
 appendix gives for efficiency and peak pressure; the two for stability and compression ratio,
-which it does not give in full, are exponentials of the same kind.
+which it does not give in full, are exponentials of the same kind. Two things are added: an orbit
+known to be unstable earns nothing for stability, and what delivers no power earns nothing at all.
 """
 
 from __future__ import annotations
@@ -13,7 +14,18 @@ from typing import Any
 
 import numpy as np
 
-from saleg.quantities import quantity
+from saleg.errors import WrongFields
+from saleg.quantities import Problem, problems, quantity
+
+
+class InvalidScore(WrongFields):
+    """A score with fields out of range; `problems` lists them all."""
+
+    whole = "score"
+
+
+#: Figures with a weight.
+WEIGHED = ("efficiency", "stability", "compression_ratio", "peak_pressure")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,7 +40,7 @@ class Score:
         Efficiency that earns most of its weight [-].
     tolerated_change : float
         Change of the left dead centre in half strokes (Eq. 68) at which stability has lost most
-        of its weight [-].
+        of its weight [-]. An orbit with a multiplier beyond one has lost all of it.
     least_compression_ratio, greatest_compression_ratio : float
         Range of the compression ratio [-].
     greatest_pressure : float
@@ -54,11 +66,38 @@ class Score:
     greatest_pressure: float = quantity("Pa", default=250e5, low=0, open_low=True)
     pressure_tolerance: float = quantity("Pa", default=20e5, low=0, open_low=True)
 
+    def __post_init__(self) -> None:
+        """Refuse fields out of range.
+
+        Raises
+        ------
+        InvalidScore
+        """
+        found = problems(self)
+        if not found and not sum(self._weights.values()) > 0.0:
+            found = [Problem("efficiency", 0.0, "-", "one of the four weights must be > 0")]
+        if not found and self.greatest_compression_ratio < self.least_compression_ratio:
+            wrong, least = self.greatest_compression_ratio, self.least_compression_ratio
+            found = [Problem("greatest_compression_ratio", wrong, "-", f"must be >= {least:g}")]
+        if found:
+            raise InvalidScore(found)
+
+    @property
+    def _weights(self) -> dict[str, float]:
+        """Weights by figure."""
+        return {name: getattr(self, name) for name in WEIGHED}
+
     def __call__(self, row: Mapping[str, Any]) -> Any:
-        """Score [-] of a row, or of a whole frame, with these figures; 0 where one is missing."""
+        """Score [-] of a row, or of a whole frame, with these figures; 0 where one is missing.
+
+        ``largest_multiplier`` is used where it is known; NaN in it stands for not known.
+        """
+        repeats = _near(row["stability"] / self.tolerated_change)
+        if "largest_multiplier" in row:
+            repeats = np.where(np.greater(row["largest_multiplier"], 1.0), 0.0, repeats)
         met = {
             "efficiency": _reached(row["efficiency"] / self.target_efficiency, 2.0),
-            "stability": _near(row["stability"] / self.tolerated_change),
+            "stability": repeats,
             "compression_ratio": _within(
                 row["compression_ratio"],
                 self.least_compression_ratio,
@@ -70,9 +109,10 @@ class Score:
                 1.0,
             ),
         }
-        weights = {name: getattr(self, name) for name in met}
+        weights = self._weights
         total = sum(weights[name] * met[name] for name in met) / sum(weights.values())
-        return np.nan_to_num(total, nan=0.0)
+        delivers = np.greater(row["efficiency"], 0.0)
+        return np.nan_to_num(np.where(delivers, total, 0.0), nan=0.0)
 
 
 def _reached(share: Any, rate: float) -> Any:

@@ -23,11 +23,14 @@ from saleg.plotting.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+#: Most of a drawing's size, and the least width its title needs [inch].
+WIDEST, HIGHEST, NARROWEST = 10.6, 6.4, 4.5
 
 def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
     """Draw the engine to scale with the translator at its midpoint (Figure 62) [mm].
 
-    Springs and walls are schematic; all that Table 7 names is to scale and dimensioned.
+    Springs and walls are schematic, a mover of unknown diameter is left out; all else that Table 7
+    names is to scale and dimensioned.
 
     Parameters
     ----------
@@ -40,15 +43,18 @@ def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
     matplotlib.axes.Axes
     """
     mm = {name: 1e3 * value for name, value in geometry.to_dict().items()}
-    depth = 0.5 * max(mm["mover_outer_diameter"], mm["bore"]) + 3.0 * WALL
+    depth = 0.5 * np.fmax(mm["mover_outer_diameter"], mm["bore"]) + 3.0 * WALL
     step = 0.035 * mm["head"] + 6.0
     bottom, top, end = -depth - 6.0 * step, depth + 2.0 * WALL, mm["head"] + 8.0 * WALL
-    ax = axes_or_new(ax, width=11.0, height=0.9 + 10.6 * (top - bottom) / (2.0 * end))
+    scale = min(WIDEST / (2.0 * end), HIGHEST / (top - bottom))
+    width, height = max(2.0 * end * scale, NARROWEST), (top - bottom) * scale
+    ax = axes_or_new(ax, width=width + 0.4, height=height + 1.0)
     for side in (-1.0, 1.0):
         housing(ax, mm, side)
         springs(ax, mm, side)
         piston(ax, mm, side)
-    mover(ax, mm)
+    if math.isfinite(mm["mover_outer_diameter"]):
+        mover(ax, mm)
     _lengths(ax, mm, depth, step)
     _diameters(ax, mm, bottom)
     ax.axhline(0.0, color="0.6", linewidth=0.6, linestyle=(0, (12, 3, 2, 3)), zorder=5)
@@ -89,7 +95,8 @@ def _diameters(ax: Axes, mm: dict[str, float], bottom: float) -> None:
         "D_R": mm["rod_diameter"],
         "b": mm["bore"],
     }
-    lines = [f"${name}$ = {value:.1f} mm" for name, value in texts.items()]
+    known = {name: value for name, value in texts.items() if math.isfinite(value)}
+    lines = [f"${name}$ = {value:.1f} mm" for name, value in known.items()]
     ax.text(-mm["head"], 0.95 * bottom, "\n".join(lines), va="bottom", fontsize="small")
 
 

@@ -1,8 +1,8 @@
 """Figures of sweeps: panels over an input (67-82), over the groups (115-124), design maps (87-91).
 
 Points that differ in kind look different: stable, unstable (an orbit from which the engine
-departs), unsteady (no orbit found; figures of the last simulated cycle), and points without any
-figures as ticks on the axis.
+departs), unsteady (no orbit found; figures of the last simulated cycle), and stalled, idling or
+invalid points as ticks on the axis, whatever figures they have.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from saleg.plotting.style import (
     new_figure,
 )
 from saleg.status import Status
+from saleg.sweep.points import SweepError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -38,6 +39,9 @@ PANELS = (
     "power_density",
     "peak_pressure",
 )
+
+#: Figures that take the place of those a table has not.
+INSTEAD = ("moving_mass", "power", "peak_velocity")
 
 #: Ratio of the greatest to the least value beyond which an axis is logarithmic.
 WIDE = 40.0
@@ -82,6 +86,8 @@ class Kind(NamedTuple):
 
 
 STABLE = Kind("stable", {"color": LEFT_COLOUR, "marker": ".", "markersize": 4, "linewidth": 1.4})
+#: The same where multipliers were not asked for.
+ORBIT = STABLE._replace(label="orbit, stability not examined")
 UNSTABLE = Kind(
     "unstable orbit",
     {
@@ -104,13 +110,13 @@ NO_FIGURES = Kind(
 
 
 def kinds(table: pd.DataFrame) -> list[tuple[Kind, np.ndarray]]:
-    """Kinds of points with the rows of each; without multipliers all orbits count as stable."""
+    """Kinds of points with the rows of each."""
     status = table["status"].to_numpy()
     steady = status == str(Status.STEADY)
     stable = table["stable"].to_numpy(dtype=bool) if "stable" in table else steady
     unsteady = status == str(Status.UNSTEADY)
     return [
-        (STABLE, steady & stable),
+        (STABLE if "stable" in table else ORBIT, steady & stable),
         (UNSTABLE, steady & ~stable),
         (UNSTEADY, unsteady),
         (NO_FIGURES, ~steady & ~unsteady),
@@ -142,9 +148,10 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     Parameters
     ----------
     table : DataFrame
-        From :func:`saleg.sweep.run` of designs with one input that varies.
+        From :func:`saleg.sweep.run`. Where further inputs vary there is a line for each of their
+        combinations.
     x : str
-        That input.
+        The input along the axes.
     ax : array of eight matplotlib.axes.Axes, optional
         New ones unless given.
 
@@ -152,21 +159,25 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     -------
     array of matplotlib.axes.Axes
     """
-    axes = _eight(ax, x)
-    ordered = table.sort_values(x)
-    ordered.attrs = table.attrs
-    for panel, name in zip(axes, _shown(table), strict=True):
-        at = values(ordered, x)
-        for kind, rows in kinds(ordered):
-            if rows.any():
-                draw_kind(panel, at, values(ordered, name), rows, kind)
+    shown = _shown(table, x)
+    _check(table, [x, *shown])
+    axes = _eight(ax)
+    lines = _lines(table, x)
+    for panel, name in zip(axes, shown, strict=False):
+        for line in lines:
+            for kind, rows in kinds(line):
+                if rows.any():
+                    draw_kind(panel, values(line, x), values(line, name), rows, kind)
         _dress(panel, table, x, name)
+    _hide(axes[len(shown) :])
     legend_below(axes)
     return axes
 
 
 def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     """Draw a cloud of designs over a dimensionless group, coloured by score (Figures 117-124).
+
+    Unstable orbits are hollow.
 
     Parameters
     ----------
@@ -182,21 +193,19 @@ def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     -------
     array of matplotlib.axes.Axes
     """
-    axes = _eight(ax, x)
+    shown = _shown(table, x)
+    _check(table, [x, "score", *shown])
+    axes = _eight(ax)
     kept = _orbits(table).sort_values("score")
     kept.attrs = table.attrs
-    for panel, name in zip(axes, _shown(table), strict=True):
-        dots = panel.scatter(
-            values(kept, x),
-            values(kept, name),
-            c=kept["score"],
-            s=7,
-            linewidths=0,
-        )
+    for panel, name in zip(axes, shown, strict=False):
+        dots = _cloud(panel, kept, [values(kept, x), values(kept, name)], kept["score"], 7.0)
         if np.nanmax(values(kept, name)) > WIDE * abs(np.nanmin(values(kept, name))):
-            panel.set_yscale("log")
+            _logarithmic(panel)
         _dress(panel, table, x, name)
+    _hide(axes[len(shown) :])
     axes[0].figure.colorbar(dots, ax=list(axes), label="score [-]", aspect=40, pad=0.01)
+    axes[0].figure.suptitle(_count(table), fontsize="medium")
     return axes
 
 
@@ -205,7 +214,8 @@ def design_map(
 ) -> Any:
     """Draw designs over three columns, coloured by a fourth (Figures 87-91).
 
-    Each design stands on a thin line, so that its place can be read in the ground plane.
+    Each design stands on a thin line, so that its place can be read in the ground plane; unstable
+    orbits are hollow.
 
     Parameters
     ----------
@@ -220,6 +230,7 @@ def design_map(
     -------
     Axes3D
     """
+    _check(table, [x, y, z, colour])
     if ax is None:
         ax = new_figure(7.4, 5.8).add_subplot(projection="3d")
     kept = _orbits(table).sort_values(colour)
@@ -228,13 +239,13 @@ def design_map(
     floor = float(at[2].min()) - 0.04 * float(np.ptp(at[2]))
     for a, b, c in zip(*at, strict=True):
         ax.plot([a, a], [b, b], [floor, c], color="0.85", linewidth=0.4, zorder=0)
-    dots = ax.scatter(*at, c=values(kept, colour), s=14, depthshade=False)
+    dots = _cloud(ax, kept, at, values(kept, colour), 14.0, depthshade=False)
     ax.set_zlim(bottom=floor)
     ax.set_xlabel(label(table, x))
     ax.set_ylabel(label(table, y))
     ax.set_zlabel(label(table, z))
     ax.figure.colorbar(dots, ax=ax, label=label(table, colour), shrink=0.75, pad=0.12)
-    ax.set_title(f"{len(kept)} of {len(table)} designs have an orbit", fontsize="medium")
+    ax.set_title(_count(table), fontsize="medium")
     return ax
 
 
@@ -268,18 +279,91 @@ def indices(found: Indices, ax: Axes | None = None) -> Axes:
 
 
 def _orbits(table: pd.DataFrame) -> pd.DataFrame:
-    """Rows with a steady state."""
-    return table[table["status"] == str(Status.STEADY)]
+    """Rows with a steady state.
+
+    Raises
+    ------
+    SweepError
+        If there are none.
+    """
+    kept = table[table["status"] == str(Status.STEADY)]
+    if not len(kept):
+        raise SweepError(f"none of {len(table)} points has a steady state: nothing to draw")
+    return kept
 
 
-def _shown(table: pd.DataFrame) -> list[str]:
-    """Columns of the panels; the moving mass where there are no multipliers."""
-    return [name if name in table else "moving_mass" for name in PANELS]
+def _check(table: pd.DataFrame, names: list[str]) -> None:
+    """Refuse columns that are not there, hold no numbers or have no unit."""
+    units = table.attrs.get("units", {})
+    for name in ["status", *names]:
+        if name not in table:
+            raise SweepError(f"no column {name!r} to draw; there are {', '.join(map(str, table))}")
+        if name != "status" and table[name].dtype.kind not in "fiu":
+            raise SweepError(f"{name} holds no numbers to draw")
+        if name not in units:
+            raise SweepError(f"no unit of {name}: keep table.attrs of the table saleg made")
 
 
-def _eight(ax: Any, x: str) -> np.ndarray:
+def _lines(table: pd.DataFrame, x: str) -> list[pd.DataFrame]:
+    """Rows in order of an input, apart for every combination of the others."""
+    others = [
+        name
+        for name in table.attrs.get("inputs", ())
+        if name != x and name in table and np.ptp(table[name]) > 0.0
+    ]
+    parts = [part for _, part in table.groupby(others)] if others else [table]
+    lines = [part.sort_values(x) for part in parts]
+    for line in lines:
+        line.attrs = table.attrs
+    return lines
+
+
+def _cloud(
+    ax: Any, kept: pd.DataFrame, at: list[np.ndarray], colour: Any, size: float, **more: Any
+) -> Any:
+    """Points coloured by a figure, those of unstable orbits hollow; what a colour bar needs."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    shown = np.asarray(colour, dtype=float)
+    scale = ScalarMappable(Normalize(shown.min(), shown.max()))
+    for kind, rows in kinds(kept):
+        if rows.any():
+            shades = scale.to_rgba(shown[rows])
+            faces = "none" if kind is UNSTABLE else shades
+            look = {
+                "facecolors": faces,
+                "edgecolors": shades,
+                "linewidths": 0.8 if kind is UNSTABLE else 0.0,
+            }
+            ax.scatter(*(part[rows] for part in at), s=size, **look, **more)
+    return scale
+
+
+def _count(table: pd.DataFrame) -> str:
+    """How many designs have a stable orbit, or any where stability was not asked for."""
+    orbits = _orbits(table)
+    if "stable" not in table:
+        return f"{len(orbits)} of {len(table)} designs have an orbit, stability not examined"
+    return (
+        f"{int(orbits['stable'].sum())} stable of {len(table)} designs, {len(orbits)} with an orbit"
+    )
+
+
+def _shown(table: pd.DataFrame, x: str) -> list[str]:
+    """Columns of the panels; others in place of what a table without multipliers or score lacks."""
+    wanted = [name for name in (*PANELS, *INSTEAD) if name in table and name != x]
+    if not wanted:
+        raise SweepError("no point has figures: nothing to draw; the messages of the rows say why")
+    return wanted[: len(PANELS)]
+
+
+def _eight(ax: Any) -> np.ndarray:
     if ax is not None:
-        return np.ravel(ax)
+        axes = np.ravel(ax)
+        if len(axes) != len(PANELS):
+            raise SweepError(f"{len(axes)} axes given: {len(PANELS)} are needed")
+        return axes
     figure = new_figure(13.2, 6.2)
     return np.ravel(figure.subplots(2, 4, sharex=True))
 
@@ -296,6 +380,22 @@ def draw_kind(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind:
         )
         return
     panel.plot(x, np.where(rows, y, np.nan), label=kind.label, **kind.look)
+
+
+def _hide(axes: np.ndarray) -> None:
+    """Panels there is nothing for."""
+    for panel in axes:
+        panel.set_visible(False)
+
+
+def _logarithmic(panel: Axes) -> None:
+    """Logarithmic axis with plain numbers, some in every decade."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    panel.set_yscale("log")
+    panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    panel.yaxis.set_minor_formatter(NullFormatter())
 
 
 def _dress(panel: Axes, table: pd.DataFrame, x: str, name: str) -> None:

@@ -15,12 +15,14 @@
     [grid]                  # or [list], [latin_hypercube], [sobol]
     bore = { from = 0.05, to = 0.08, count = 31 }
     egr = [0.0, 0.1, 0.2]
+    "heat_transfer.a" = [60.0, 70.0]  # a dotted name needs its quotes
 
 The two random sets take ``count``, ``seed`` and a table ``ranges`` of ``name = [low, high]``.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,18 +35,21 @@ from saleg.engine import Engine
 from saleg.files import nearest, parsed
 from saleg.machines import CATALOGUE
 from saleg.quantities import is_number
-from saleg.sweep.points import SweepError, grid, latin_hypercube, listed, sobol
+from saleg.sweep.points import SweepError, grid, latin_hypercube, listed, refuse_too_many, sobol
 
 if TYPE_CHECKING:
     import pandas as pd
 
+#: Keys of evenly spaced values.
+SPAN = {"from", "to", "count"}
 #: Keys of [sweep] with their types.
-SETTINGS: dict[str, type | tuple[type, ...]] = {
+SETTINGS: dict[str, type] = {
     "multipliers": bool,
     "warm": bool,
     "chunk": int,
     "rtol": float,
 }
+WANTED = {bool: "true or false", int: "a whole number", float: "a number"}
 RANDOM = ("count", "seed", "ranges")
 
 
@@ -92,9 +97,15 @@ def read(path: str | Path) -> SweepFile:
         _known(settings, ["machine", *SETTINGS], "sweep.")
         kinds = [kind for kind in KINDS if kind in tables]
         if len(kinds) != 1:
-            raise SweepError(f"needs one of {', '.join(f'[{kind}]' for kind in KINDS)}")
+            given = " and ".join(f"[{kind}]" for kind in kinds) or "none"
+            wanted = ", ".join(f"[{kind}]" for kind in KINDS)
+            raise SweepError(f"needs one of {wanted}, and no more; has {given}")
         points = KINDS[kinds[0]](_table(tables, kinds[0]))
-        swept = _swept(settings, _table(tables, "fixed"))
+        fixed = _table(tables, "fixed")
+        both = [name for name in points if name in fixed]
+        if both:
+            raise SweepError(f"{both[0]} stands in [fixed] and in [{kinds[0]}]: remove one")
+        swept = _swept(settings, fixed)
         return SweepFile(points, swept, _settings(settings))
     except SweepError as error:
         raise SweepError(f"{path}: {error}") from None
@@ -102,6 +113,7 @@ def read(path: str | Path) -> SweepFile:
 
 def _swept(settings: Mapping[str, Any], fixed: Mapping[str, Any]) -> Design | Engine:
     """Design or engine with its fixed values."""
+    _refuse_dotted(fixed)
     wrong = [name for name, value in fixed.items() if not is_number(value)]
     if wrong:
         raise SweepError(f"fixed.{wrong[0]} = {fixed[wrong[0]]!r}: must be a number")
@@ -118,14 +130,28 @@ def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
     found = {}
     for name, kind in SETTINGS.items():
         if name in given:
-            if type(given[name]) is not kind:
-                raise SweepError(f"sweep.{name} = {given[name]!r}: must be a {kind}")
+            if type(given[name]) not in (kind, int if kind is float else kind):
+                raise SweepError(f"sweep.{name} = {given[name]!r}: must be {WANTED[kind]}")
             found[name] = given[name]
     return found
 
 
 def _grid(table: Mapping[str, Any]) -> pd.DataFrame:
+    _refuse_dotted(table)
     return grid({name: _values(name, held) for name, held in table.items()})
+
+
+def _listed(table: Mapping[str, Any]) -> pd.DataFrame:
+    _refuse_dotted(table)
+    return listed(table)
+
+
+def _refuse_dotted(table: Mapping[str, Any]) -> None:
+    """A dotted key without quotes is a table within a table."""
+    for name, held in table.items():
+        if isinstance(held, dict) and held and not set(held) & SPAN:
+            path = f"{name}.{next(iter(held))}"
+            raise SweepError(f'{path}: a dotted name must be quoted: "{path}" = ...')
 
 
 def _values(name: str, held: Any) -> Any:
@@ -133,10 +159,11 @@ def _values(name: str, held: Any) -> Any:
     if not isinstance(held, dict):
         return held
     ends: list[Any] = [held.get(key) for key in ("from", "to", "count")]
-    if set(held) != {"from", "to", "count"} or not all(map(is_number, ends)):
-        raise SweepError(f"{name} = {held}: needs the numbers from, to and count, and no more")
+    if set(held) != SPAN or not all(is_number(end) and math.isfinite(end) for end in ends):
+        raise SweepError(f"{name} = {held}: needs the finite numbers from, to and count")
     if not isinstance(ends[2], int) or ends[2] < 2:
         raise SweepError(f"{name}: count = {ends[2]}: must be a whole number >= 2")
+    refuse_too_many(ends[2])
     return list(np.linspace(*ends))
 
 
@@ -145,6 +172,7 @@ def _random(
 ) -> Callable[[Mapping[str, Any]], pd.DataFrame]:
     def points(table: Mapping[str, Any]) -> pd.DataFrame:
         _known(table, RANDOM, "")
+        _refuse_dotted(_table(table, "ranges"))
         return make(_table(table, "ranges"), table.get("count"), table.get("seed", 0))
 
     return points
@@ -153,7 +181,7 @@ def _random(
 #: Tables that give points, by name.
 KINDS: dict[str, Callable[[Mapping[str, Any]], Any]] = {
     "grid": _grid,
-    "list": listed,
+    "list": _listed,
     "latin_hypercube": _random(latin_hypercube),
     "sobol": _random(sobol),
 }

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.status import Status
-from saleg.sweep.points import Ranges, SweepError, box
+from saleg.sweep.points import Ranges, SweepError, box, checked_seed, refuse_too_many
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -76,10 +76,16 @@ def saltelli_points(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     from scipy.stats import qmc
 
     low, high = box(ranges)
-    if not isinstance(count, (int, np.integer)) or count < 2 or count & (count - 1):
+    if (
+        not isinstance(count, (int, np.integer))
+        or isinstance(count, bool)
+        or count < 2
+        or count & (count - 1)
+    ):
         raise SweepError(f"count = {count!r}: must be a power of two")
     d = len(low)
-    both = qmc.Sobol(2 * d, seed=seed).random(int(count))
+    refuse_too_many(int(count) * (d + 2))
+    both = qmc.Sobol(2 * d, seed=checked_seed(seed)).random(int(count))
     a, b = both[:, :d], both[:, d:]
     mixed = []
     for n in range(d):
@@ -90,7 +96,13 @@ def saltelli_points(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     return pd.DataFrame(low + unit * (high - low), columns=list(ranges))
 
 
-def indices(table: pd.DataFrame, figure: str, inputs: Sequence[str] | None = None) -> Indices:
+def indices(
+    table: pd.DataFrame,
+    figure: str,
+    inputs: Sequence[str] | None = None,
+    *,
+    unstable: bool = False,
+) -> Indices:
     """Sobol' indices of a figure from a finished sweep of :func:`saltelli_points`.
 
     Parameters
@@ -101,6 +113,9 @@ def indices(table: pd.DataFrame, figure: str, inputs: Sequence[str] | None = Non
         A column.
     inputs : sequence of str, optional
         Columns of the inputs; those the sweep knows unless given.
+    unstable : bool
+        Take figures of unstable orbits like any other. Without a column ``stable`` nothing tells
+        them apart.
 
     Returns
     -------
@@ -109,8 +124,8 @@ def indices(table: pd.DataFrame, figure: str, inputs: Sequence[str] | None = Non
     Raises
     ------
     NoIndices
-        If any design failed or has no such figure: a single one would spoil every index, and
-        leaving it out would hide where the engine does not run.
+        If any design failed, has no such figure, or has an unstable orbit: a single one would
+        spoil every index, and leaving it out would hide where the engine does not run.
 
     Examples
     --------
@@ -123,7 +138,12 @@ def indices(table: pd.DataFrame, figure: str, inputs: Sequence[str] | None = Non
     names = list(inputs if inputs is not None else table.attrs.get("inputs", ()))
     if not names:
         raise NoIndices("which columns are inputs? the table does not say; name them")
-    _refuse_failures(table, figure)
+    if len(names) == 1:
+        raise NoIndices(f"{names[0]} is the only input: it explains everything")
+    missing = [name for name in names if name not in table]
+    if missing:
+        raise NoIndices(f"no column {missing[0]!r}; there are {', '.join(map(str, table))}")
+    _refuse_failures(table, figure, unstable)
     count, rest = divmod(len(table), len(names) + 2)
     if rest or not _is_saltelli(table[names].to_numpy(), count):
         raise NoIndices("these points are none of saltelli_points for these inputs")
@@ -159,19 +179,26 @@ def _of_values(values: np.ndarray, figure: str, names: list[str], count: int) ->
     return Indices(figure, frame, variance)
 
 
-def _refuse_failures(table: pd.DataFrame, figure: str) -> None:
+def _refuse_failures(table: pd.DataFrame, figure: str, unstable: bool) -> None:
     if figure not in table:
         raise NoIndices(f"no column {figure!r}; there are {', '.join(map(str, table))}")
-    failed = table["status"] != str(Status.STEADY) if "status" in table else table[figure].isna()
-    missing = ~np.isfinite(table[figure].to_numpy(dtype=float))
-    bad = failed.to_numpy() | missing
+    if table[figure].dtype.kind not in "fiu":
+        raise NoIndices(f"{figure} holds no numbers")
+    bad = ~np.isfinite(table[figure].to_numpy(dtype=float))
+    kinds = np.where(bad, f"without {figure}", "unstable").astype(object)
+    if "status" in table:
+        failed = (table["status"] != str(Status.STEADY)).to_numpy()
+        kinds[failed] = table["status"].to_numpy()[failed]
+        bad |= failed
+    if "stable" in table and not unstable:
+        bad |= ~table["stable"].to_numpy(dtype=bool)
     if bad.any():
-        kinds = ", ".join(
-            f"{count} {status}" for status, count in table.loc[bad, "status"].value_counts().items()
-        )
+        found, counts = np.unique(kinds[bad].astype(str), return_counts=True)
+        said = ", ".join(f"{n} {kind}" for kind, n in zip(found, counts, strict=True))
+        allowed = ", or allow unstable orbits with unstable=True" if "unstable" in found else ""
         raise NoIndices(
-            f"{int(bad.sum())} of {len(table)} designs have no steady {figure} ({kinds}): indices "
-            "would hide them; narrow the ranges to where the engine runs"
+            f"{int(bad.sum())} of {len(table)} designs have no steady {figure} ({said}): indices "
+            f"would hide them; narrow the ranges to where the engine runs{allowed}"
         )
 
 

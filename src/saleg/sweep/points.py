@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
 
 #: Range of an input: lowest and highest value.
 Ranges = Mapping[str, Sequence[float]]
+
+
+#: Points of a set at most; more would fill the memory before any work is done.
+MOST_POINTS = 10_000_000
 
 
 class SweepError(SalegError, ValueError):
@@ -41,9 +46,10 @@ def grid(values: Mapping[str, Sequence[float]]) -> pd.DataFrame:
     """
     import pandas as pd
 
-    columns = {name: _numbers(name, column) for name, column in values.items()}
+    columns = {name: _numbers(name, column) for name, column in _table(values).items()}
     if not columns:
         raise SweepError("a grid needs at least one input")
+    refuse_too_many(math.prod(map(len, columns.values())))
     return pd.DataFrame(list(itertools.product(*columns.values())), columns=list(columns))
 
 
@@ -66,7 +72,7 @@ def listed(columns: Mapping[str, Sequence[float]]) -> pd.DataFrame:
     """
     import pandas as pd
 
-    held = {name: _numbers(name, column) for name, column in columns.items()}
+    held = {name: _numbers(name, column) for name, column in _table(columns).items()}
     lengths = {name: len(column) for name, column in held.items()}
     if not held or len(set(lengths.values())) > 1:
         raise SweepError(f"a list needs as many values of every input; there are {lengths}")
@@ -95,9 +101,12 @@ def latin_hypercube(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     >>> sorted(int(x) for x in (points.bore - 0.05) / 0.005)
     [0, 1, 2, 3]
     """
+    import pandas as pd
     from scipy.stats import qmc
 
-    return _scaled(ranges, qmc.LatinHypercube(len(ranges), seed=seed).random(_count(count)))
+    low, high = box(ranges)
+    unit = qmc.LatinHypercube(len(low), seed=checked_seed(seed)).random(_count(count))
+    return pd.DataFrame(low + unit * (high - low), columns=list(ranges))
 
 
 def sobol(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
@@ -121,31 +130,49 @@ def sobol(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     >>> len(sobol({"bore": (0.05, 0.07), "egr": (0.0, 0.3)}, 8))
     8
     """
+    import pandas as pd
     from scipy.stats import qmc
 
     count = _count(count)
     if count & (count - 1):
         raise SweepError(f"count = {count}: a Sobol' set needs a power of two of points")
-    return _scaled(ranges, qmc.Sobol(len(ranges), seed=seed).random(count))
+    low, high = box(ranges)
+    unit = qmc.Sobol(len(low), seed=checked_seed(seed)).random(count)
+    return pd.DataFrame(low + unit * (high - low), columns=list(ranges))
 
 
 def box(ranges: Ranges) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest values of a box, checked."""
-    if not ranges:
+    if not _table(ranges):
         raise SweepError("ranges are missing")
     for name, ends in ranges.items():
         ends = _numbers(name, ends)
-        if len(ends) != 2 or not ends[0] < ends[1]:
-            raise SweepError(f"{name} = {list(ends)}: must be a lower and a higher value")
+        if len(ends) != 2 or not ends[0] < ends[1] or not all(map(math.isfinite, ends)):
+            raise SweepError(f"{name} = {list(ends)}: must be a lower and a higher finite value")
     low, high = np.array([[float(end) for end in ends] for ends in ranges.values()]).T
     return low, high
 
 
-def _scaled(ranges: Ranges, unit: np.ndarray) -> pd.DataFrame:
-    import pandas as pd
+def refuse_too_many(count: int) -> None:
+    """Refuse a set of points that would fill the memory."""
+    if count > MOST_POINTS:
+        raise SweepError(
+            f"{count:.3g} points are more than {MOST_POINTS:.0e}: take fewer values, or split the "
+            "sweep"
+        )
 
-    low, high = box(ranges)
-    return pd.DataFrame(low + unit * (high - low), columns=list(ranges))
+
+def checked_seed(seed: int) -> int:
+    """A seed, refused unless it always gives the same points."""
+    if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
+        raise SweepError(f"seed = {seed!r}: must be a whole number >= 0")
+    return int(seed)
+
+
+def _table(values: Any) -> Mapping[str, Any]:
+    if not isinstance(values, Mapping):
+        raise SweepError(f"{values!r}: must be values by name, as {{'bore': [0.06, 0.07]}}")
+    return values
 
 
 def _numbers(name: str, values: Sequence[float]) -> list[float]:
@@ -161,4 +188,5 @@ def _numbers(name: str, values: Sequence[float]) -> list[float]:
 def _count(count: int) -> int:
     if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
         raise SweepError(f"count = {count!r}: must be a whole number >= 1")
+    refuse_too_many(int(count))
     return int(count)

@@ -17,10 +17,10 @@ from saleg.engine import Engine
 from saleg.quantities import is_number
 from saleg.steady import DEFAULT_TOLERANCE, check_tolerance
 from saleg.sweep.points import SweepError
-from saleg.sweep.store import RESULTS, Folder, read_description, read_table
+from saleg.sweep.store import Folder
 from saleg.sweep.subjects import Subject, Values, subject_of
 from saleg.version import __version__
-from saleg.workers import completed
+from saleg.workers import check_workers, completed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -95,6 +95,7 @@ def run(
     """
     subject = subject_of(swept)
     _check(points, subject, chunk, rtol)
+    check_workers(executor, workers)
     solver = partial(subject.solver, rtol, multipliers, warm)
     solver()  # what it refuses, it refuses here
     points = _described(points.reset_index(drop=True), subject, [str(name) for name in points])
@@ -110,7 +111,7 @@ def run(
         "inputs": {str(name): subject.unit(str(name)) for name in points},
         "count": len(points),
     }
-    kept = Folder(Path(folder))
+    kept = Folder(_path(folder))
     with kept.opened(description, points):
         return _resumed(kept, job, pieces, points, subject, executor, workers, report)
 
@@ -130,13 +131,17 @@ def load(folder: str | Path) -> pd.DataFrame:
     Raises
     ------
     SweepError
-        If there is none.
+        If there is none, or it is damaged.
     """
-    if not Folder(Path(folder)).finished:
+    if not Folder(_path(folder)).finished:
         raise SweepError(f"{folder} holds no finished sweep; run it again to finish it")
-    table = read_table(Path(folder) / RESULTS)
-    table.attrs["inputs"] = list(read_description(Path(folder))["inputs"])
-    return table
+    return Folder(Path(folder)).table()
+
+
+def _path(folder: Any) -> Path:
+    if not isinstance(folder, (str, Path)):
+        raise SweepError(f"folder = {folder!r}: must be text or a Path")
+    return Path(folder)
 
 
 def _resumed(
@@ -151,10 +156,11 @@ def _resumed(
 ) -> pd.DataFrame:
     """Do what is not done yet and keep it."""
     if kept.finished:
+        kept.clear()  # what was left if the end was interrupted
         if report is not None:
             report(len(points), len(points))
         return load(kept.path)
-    done = kept.done()
+    done = kept.done({number: len(piece) for number, piece in pieces})
     left = [piece for piece in pieces if piece[0] not in done]
     before = len(points) - sum(len(piece) for _, piece in left)
     for _ in _work(job, left, executor, workers, report, before, kept.keep):
@@ -233,11 +239,19 @@ def _described(table: pd.DataFrame, subject: Subject, inputs: list[str]) -> pd.D
 
 def _check(points: pd.DataFrame, subject: Subject, chunk: int, rtol: float) -> None:
     """Refuse what makes no sense before any work is done."""
+    import pandas as pd
+
     check_tolerance(rtol)
-    if not isinstance(chunk, (int, np.integer)) or chunk < 1:
+    if not isinstance(points, pd.DataFrame):
+        raise SweepError(
+            f"points are a {type(points).__name__}: must be a DataFrame, as sweep.grid makes one"
+        )
+    if not isinstance(chunk, (int, np.integer)) or isinstance(chunk, bool) or chunk < 1:
         raise SweepError(f"chunk = {chunk!r}: must be a whole number >= 1")
     if not len(points.columns):
         raise SweepError("no inputs: the points have no columns")
+    if not points.columns.is_unique:
+        raise SweepError(f"an input stands twice in {', '.join(map(str, points.columns))}")
     for name in points:
         subject.unit(str(name))
         if not all(is_number(value) for value in points[name]):

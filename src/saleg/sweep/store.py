@@ -7,10 +7,13 @@ is done is a file in ``parts``. At the end all of it is ``results.csv``, and the
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import json
 import math
+import os
 import shutil
+import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.batches import Columns, kind_of
-from saleg.kernel.cache import locked, write_atomically
+from saleg.kernel.cache import locked
 from saleg.sweep.points import SweepError
 
 if TYPE_CHECKING:
@@ -56,32 +59,35 @@ class Folder:
             If it is that of another sweep, or no folder of a sweep at all.
         """
         if self.path.is_dir() and not (self.path / DESCRIPTION).exists():
-            ours = {LOCK, POINTS}
-            strange = [
-                entry.name
-                for entry in self.path.iterdir()
-                if entry.name not in ours
-                and not entry.name.startswith((f".{DESCRIPTION}", f".{POINTS}"))
-            ]
-            if strange:
-                raise SweepError(f"{self.path} is no folder of a sweep: it holds {strange[0]}")
-        try:
-            (self.path / PARTS).mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise SweepError(f"cannot write {self.path}: {error.strerror}") from None
+            self._refuse_strangers(table_text(points))
+        with _writing(self.path):
+            self.path.mkdir(parents=True, exist_ok=True)
+            (self.path / LOCK).touch()
         with locked(self.path / LOCK):
             self._claim(json.loads(json.dumps(description)), points)
             yield
 
+    def _refuse_strangers(self, points: str) -> None:
+        """A folder without a description may hold what an interrupted start left, nothing else."""
+        for entry in self.path.iterdir():
+            ours = entry.name == LOCK or entry.name.startswith((f".{DESCRIPTION}", f".{POINTS}"))
+            if entry.name == POINTS:
+                ours = _read(entry) == points
+            if not ours:
+                raise SweepError(
+                    f"{self.path} is no folder of a sweep: it holds {entry.name}; name another "
+                    "folder"
+                )
+
     def _claim(self, description: dict[str, Any], points: pd.DataFrame) -> None:
         path = self.path / DESCRIPTION
         if not path.exists():
-            write_atomically(self.path / POINTS, table_text(points))
-            write_atomically(path, json.dumps(description, indent=1) + "\n")
+            _write(self.path / POINTS, table_text(points))
+            _write(path, json.dumps(description, indent=1) + "\n")
             return
         known = read_description(self.path)
         differing = [key for key in description if known.get(key) != description[key]]
-        if (self.path / POINTS).read_text(encoding="utf-8") != table_text(points):
+        if _read(self.path / POINTS) != table_text(points):
             differing.append("points")
         if differing:
             raise SweepError(
@@ -94,55 +100,145 @@ class Folder:
         """Whether all is done."""
         return (self.path / RESULTS).exists()
 
-    def done(self) -> set[int]:
-        """Numbers of the pieces that are done."""
-        return {int(file.stem) for file in (self.path / PARTS).glob("[0-9]*.json")}
+    def done(self, counts: Mapping[int, int]) -> set[int]:
+        """Which pieces are done, of some with their numbers of points; a damaged one is not."""
+        return {number for number, count in counts.items() if self._whole(number, count)}
 
     def keep(self, number: int, columns: Columns) -> None:
         """Write a piece that is done."""
-        text = json.dumps({name: _plain(values) for name, values in columns.items()})
-        write_atomically(self._part(number), text + "\n")
+        plain = {name: _plain(values) for name, values in columns.items()}
+        path = self._part(number)
+        with _writing(path.parent):
+            path.parent.mkdir(exist_ok=True)
+        _write(path, json.dumps({"sha256": _digest(plain), "columns": plain}) + "\n")
 
     def piece(self, number: int) -> Columns:
         """Read a piece."""
-        held = json.loads(self._part(number).read_text(encoding="utf-8"))
+        held = json.loads(_read(self._part(number)))["columns"]
         return {name: _restored(name, values) for name, values in held.items()}
+
+    def _whole(self, number: int, count: int) -> bool:
+        """Whether a piece is there as it was written, with as many points."""
+        try:
+            held = json.loads(self._part(number).read_text(encoding="utf-8"))
+            columns = held["columns"]
+            return held["sha256"] == _digest(columns) and len(columns["status"]) == count
+        except (OSError, ValueError, TypeError, KeyError):
+            return False
 
     def finish(self, table: pd.DataFrame) -> None:
         """Write the whole table; the parts are no longer needed."""
-        write_atomically(self.path / RESULTS, table_text(table))
+        _write(self.path / RESULTS, table_text(table))
+        self.clear()
+
+    def clear(self) -> None:
+        """Remove the parts."""
         shutil.rmtree(self.path / PARTS, ignore_errors=True)
+
+    def table(self) -> pd.DataFrame:
+        """The whole table, checked against what the sweep is of.
+
+        Raises
+        ------
+        SweepError
+            If either is damaged.
+        """
+        known = read_description(self.path)
+        inputs, path = known.get("inputs"), self.path / RESULTS
+        if not isinstance(inputs, dict) or not isinstance(known.get("count"), int):
+            raise SweepError(f"{self.path / DESCRIPTION} is damaged: it lacks inputs or count")
+        table = read_table(path)
+        names = [str(name) for name in table]
+        results = {"status"} if known["count"] else set()
+        if names[: len(inputs)] != list(inputs) or not results <= set(names):
+            raise _damaged(path, "its columns are not those of this sweep")
+        if len(table) != known["count"]:
+            raise _damaged(path, f"it has {len(table)} rows in place of {known['count']}")
+        table.attrs["inputs"] = list(inputs)
+        return table
 
     def _part(self, number: int) -> Path:
         return self.path / PARTS / f"{number:07d}.json"
 
 
+def _digest(columns: Mapping[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(columns).encode()).hexdigest()
+
+
+def _damaged(path: Path, why: str) -> SweepError:
+    return SweepError(f"{path} is damaged: {why}; remove it and run the sweep again")
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """Name the file in what goes wrong with it."""
+    try:
+        yield
+    except OSError as error:
+        raise SweepError(f"cannot write {path}: {error.strerror}") from None
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a text file so that it is there whole or not at all, readable as any other file."""
+    temporary = path.with_name(f".{path.name}-{uuid.uuid4().hex}")
+    with _writing(path):
+        try:
+            with open(temporary, "x", encoding="utf-8", newline="\n") as file:
+                file.write(text)
+            os.replace(temporary, path)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_bytes().decode("utf-8")
+    except OSError as error:
+        raise SweepError(f"cannot read {path}: {error.strerror}") from None
+    except ValueError:
+        raise SweepError(f"{path} is damaged: it is no text") from None
+
+
 def read_description(folder: Path) -> dict[str, Any]:
     """What a sweep is of, from its folder."""
+    path = folder / DESCRIPTION
     try:
-        held = json.loads((folder / DESCRIPTION).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        held = json.loads(_read(path))
+    except ValueError as error:
         raise SweepError(f"{folder} is no folder of a sweep: {error}") from None
-    return dict(held)
+    if not isinstance(held, dict):
+        raise SweepError(f"{folder} is no folder of a sweep: {path} holds no table")
+    return held
 
 
 def read_table(path: Path) -> pd.DataFrame:
-    """A table as :func:`table_text` writes it, exactly, with its units in ``.attrs``."""
+    """A table as :func:`table_text` writes it, exactly, with its units in ``.attrs``.
+
+    Raises
+    ------
+    SweepError
+        If it is none.
+    """
     import pandas as pd
 
-    with open(path, encoding="utf-8", newline="") as file:
-        labels, *rows = csv.reader(file)
-    names, units = [], []
-    for label in labels:
-        name, _, unit = label.rpartition(" [")
-        names.append(name)
-        units.append(unit.rstrip("]"))
+    text = _read(path)
+    if not text.endswith("\n"):
+        raise _damaged(path, "its last line is cut")
+    labels, *rows = csv.reader(io.StringIO(text, newline=""))
+    split = [label.rpartition(" [") for label in labels]
+    names = [name for name, _, _ in split]
+    if not all(names) or any(len(row) != len(names) for row in rows):
+        raise _damaged(path, "a line has another number of values, or a column no name and unit")
+    columns = zip(*rows, strict=True) if rows else [()] * len(names)
     data: dict[str, np.ndarray] = {}
-    for name, texts in zip(
-        names, zip(*rows, strict=True) if rows else [()] * len(names), strict=True
-    ):
-        data[name] = np.array([_value(name, text) for text in texts], dtype=kind_of(name))
+    for name, texts in zip(names, columns, strict=True):
+        try:
+            data[name] = np.array([_value(name, text) for text in texts], dtype=kind_of(name))
+        except ValueError:
+            raise _damaged(path, f"a value of {name} is no number") from None
     frame = pd.DataFrame(data)
+    units = [unit.rstrip("]") for _, _, unit in split]
     frame.attrs["units"] = dict(zip(names, units, strict=True))
     return frame
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Any, Protocol
 
 from saleg.batches import UNITS as STEADY_UNITS
@@ -12,8 +13,11 @@ from saleg.design.designs import Design
 from saleg.design.many import UNITS as DESIGN_UNITS
 from saleg.design.many import Follower
 from saleg.engine import Engine
+from saleg.errors import UnknownPath
 from saleg.paths import unit_of
+from saleg.quantities import is_number
 from saleg.steady import steady_state
+from saleg.sweep.identity import described, own_code
 from saleg.sweep.points import SweepError
 
 Values = Mapping[str, float]
@@ -48,8 +52,11 @@ class DesignSubject:
         return DESIGN_UNITS
 
     def unit(self, name: str) -> str:
-        """Unit of an input."""
-        return self.design.unit(name)
+        """Unit of an input; refuses what the parameters or the loop decide about."""
+        unit = self.design.unit(name)
+        _refuse_parts(name, self.design.get(name))
+        self.design.replace({name: float("nan")})  # an object of its own, to be found again
+        return unit
 
     def describe(self) -> dict[str, Any]:
         """Parameters, masses and laws."""
@@ -57,10 +64,10 @@ class DesignSubject:
             "kind": "design",
             "parameters": dataclasses.asdict(self.design.parameters),
             "masses": {
-                item.name: repr(getattr(self.design.masses, item.name))
+                item.name: described(getattr(self.design.masses, item.name), f"masses.{item.name}")
                 for item in dataclasses.fields(self.design.masses)
             },
-            "laws": self.design.laws.to_toml(),
+            **_laws(self.design.laws),
         }
 
     def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
@@ -81,11 +88,14 @@ class EngineSubject:
 
     def unit(self, name: str) -> str:
         """Unit of an input."""
-        return unit_of(self.engine, name)
+        unit = unit_of(self.engine, name)
+        with suppress(UnknownPath):  # left and right differ: a number for both of them
+            _refuse_parts(name, self.engine.get(name))
+        return unit
 
     def describe(self) -> dict[str, Any]:
         """The engine."""
-        return {"kind": "engine", "laws": self.engine.to_toml()}
+        return {"kind": "engine", **_laws(self.engine)}
 
     def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
         """What makes a row of a point, from the engine's own starts."""
@@ -99,6 +109,16 @@ class EngineSubject:
         return row
 
 
+def _refuse_parts(name: str, value: Any) -> None:
+    if not is_number(value):
+        raise SweepError(f"{name} is no number but a {type(value).__name__}: name one of its own")
+
+
+def _laws(engine: Engine) -> dict[str, Any]:
+    """An engine with all its numbers, and what its file would not say: the code of own laws."""
+    return {"laws": engine.to_toml(), "own_laws": own_code(engine)}
+
+
 def subject_of(swept: Design | Engine | Subject | None) -> Subject:
     """What is swept, as a subject; the designs of Chapter 4 if nothing is given."""
     if swept is None:
@@ -107,4 +127,9 @@ def subject_of(swept: Design | Engine | Subject | None) -> Subject:
         return DesignSubject(swept)
     if isinstance(swept, Engine):
         return EngineSubject(swept)
+    if isinstance(swept, type) or not callable(getattr(swept, "solver", None)):
+        raise SweepError(
+            f"cannot sweep {swept!r}: must be a Design, an Engine, or nothing for the designs of "
+            "Chapter 4"
+        )
     return swept
