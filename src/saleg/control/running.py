@@ -35,6 +35,7 @@ CONTROL_UNITS = {
     **RUN_UNITS,
     "fired_at": "s",
     "motor_returns": "-",
+    "strokes": "-",
     "motored_share": "-",
     "farthest": "m",
 }
@@ -236,9 +237,9 @@ def simulate_many(
     -------
     DataFrame
         One row per pair, in order: status, message, figures of the last cycle, ``fired_at``, when
-        the motor was first left [s], ``motor_returns``, how often it came back,
-        ``motored_share``, the share of the strokes that were motored, and ``farthest``, the
-        greatest distance of a dead centre from the midpoint [m]. Units in ``.attrs``.
+        the motor was first left [s], ``motor_returns``, how often it came back, ``strokes``, how
+        many there were, ``motored_share``, the share of them that was motored, and ``farthest``,
+        the greatest distance of a dead centre from the midpoint [m]. Units in ``.attrs``.
     """
     one: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
     return table_of(one, pairs, CONTROL_UNITS, executor, workers, chunk, _kernel_of)
@@ -255,6 +256,7 @@ def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any
         **run_row(run),
         "fired_at": fired_at(run),
         "motor_returns": float(motor_returns(run)),
+        "strokes": float(len(run.strokes)),
         "motored_share": motored_share(run),
         "farthest": float(np.abs(run.strokes["x_end"]).max(initial=0.0)),
     }

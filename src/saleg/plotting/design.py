@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 #: Most of a drawing's size, and the least width its title needs [inch].
 WIDEST, HIGHEST, NARROWEST = 10.6, 6.4, 4.5
 
+
 def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
     """Draw the engine to scale with the translator at its midpoint (Figure 62) [mm].
 
