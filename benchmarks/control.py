@@ -2,8 +2,9 @@
 
     python benchmarks/control.py [--count 1000]
 
-Plainly run, a motored half cycle is one of an engine whose alternator is a sinusoidal motor, a fired
-one that of the engine at its steady state; both are timed in turns with the batch, in one run.
+Plainly run, a motored half cycle is one of an engine whose alternator is a sinusoidal motor, a
+fired one that of the engine at its steady state; both are timed in turns with the batch, in one
+run.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ def plain(engine, duration):
 
 
 def main(count: int) -> None:
+    """Time the batch and the plain runs in turns, and print what they cost."""
     rng = np.random.default_rng(0)
     at_rest = ENGINE.replace(start=AtRest())
     searches = [ResonanceSearch(base_frequency=f) for f in rng.uniform(32.0, 38.5, count)]
