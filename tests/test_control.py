@@ -9,8 +9,11 @@ import pytest
 import saleg
 from saleg import Controller, Status, control
 from saleg.control import Demand, Plant, Sensors, generator, motor
+from saleg.control.plant import InPython
 from saleg.errors import ControllerError, InvalidController, SalegError
 from saleg.kernel import layout
+from saleg.kernel.controllers import control_of
+from saleg.kernel.slots import call_at
 from saleg.laws import (
     Actuators,
     AlwaysMotored,
@@ -24,9 +27,11 @@ from saleg.laws import (
     PowerDemand,
     ResonanceSearch,
     ScaledLoad,
+    Signals,
     SteadyMotor,
     ViscousFriction,
 )
+from saleg.laws.controlling import CONTROL_SLOTS
 from saleg.start import AtRest
 from test_thesis import check_table_13
 
@@ -221,6 +226,53 @@ def test_python_and_compiled_switch_at_the_same_instants(at_rest, name):
         compiled.dead_centres.to_numpy(float), python.dead_centres.to_numpy(float), rtol=1e-9
     )
     assert compiled.performance.power == pytest.approx(python.performance.power, rel=1e-9)
+
+
+PARTS = [
+    getattr(saleg.laws, name)
+    for name in saleg.laws.__all__
+    if getattr(getattr(saleg.laws, name), "slot", "") in CONTROL_SLOTS
+    and dataclasses.is_dataclass(getattr(saleg.laws, name))
+]
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part.__name__)
+def test_every_part_commands_the_same_compiled(part):
+    """The compiled function, called by its address, against the same source run as Python."""
+    controller = dataclasses.replace(Controller(), **{part.slot: part()})
+    address, numbers, held, signals, commands = control_of(controller)
+    python = InPython(controller)
+    rng = np.random.default_rng(1)
+    was = 0.0
+    for n in range(30):
+        ratio, power = rng.uniform(1.0, 30.0), rng.uniform(-500.0, 5e3)
+        seen = Signals(
+            0.1 * n,
+            0.04,
+            1.0 - 2.0 * (n % 2),
+            0.08,
+            ratio,
+            45.0,
+            power,
+            0.9,
+            was,
+            was,
+            0.0934,
+            0.6,
+            300.0,
+        )
+        signals[:] = seen
+        call_at(
+            address,
+            numbers.ctypes.data,
+            held.ctypes.data,
+            signals.ctypes.data,
+            commands.ctypes.data,
+        )
+        wanted = python.act(seen)
+        np.testing.assert_allclose(commands, wanted, rtol=1e-14)
+        np.testing.assert_allclose(held, python.held.ravel(), rtol=1e-14)
+        was = wanted.motoring
 
 
 # --- physics of the motor

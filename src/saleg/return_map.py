@@ -28,7 +28,7 @@ from saleg.kernel.orbit import (
 from saleg.kernel.source import fingerprint
 from saleg.laws import NoHeatTransfer, NoMisfires
 from saleg.laws.arguments import Motion
-from saleg.laws.base import Alternator
+from saleg.laws.base import Alternator, Law
 from saleg.prepare import State
 from saleg.simulate import Settings, options_record, work_space
 
@@ -263,7 +263,7 @@ def repeats_itself(engine: Engine) -> bool:
     for chamber in engine.chambers:
         if not isinstance(getattr(chamber, "misfires", NoMisfires()), NoMisfires):
             return False
-    kinds: list[Any] = [type(law) for law in (engine.springs, engine.friction, engine.alternator)]
+    kinds: list[Any] = [type(law) for law in _laws_of_motion(engine)]
     return not any(_asks_for_time(kind) for kind in kinds)
 
 
@@ -278,6 +278,9 @@ def is_symmetric(engine: Engine) -> bool:
     """Whether an engine is its own mirror image, laws of motion included."""
     if not engine.is_mirrored:
         return False
+    # A class says so for itself, not for those derived from it.
+    if all(vars(type(law)).get("mirrors") for law in _laws_of_motion(engine)):
+        return True
     for x, v, direction, current in _probes(engine):
         there = _forces(engine, Motion(0.0, x, v, direction, current))
         mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
@@ -286,6 +289,10 @@ def is_symmetric(engine: Engine) -> bool:
             if abs(sign * a - b) > 1e-12 * abs(a):
                 return False
     return True
+
+
+def _laws_of_motion(engine: Engine) -> tuple[Law, ...]:
+    return engine.springs, engine.friction, engine.alternator
 
 
 def _probes(engine: Engine) -> list[tuple[float, float, float, float]]:

@@ -20,7 +20,7 @@ from contextlib import nullcontext
 from functools import lru_cache
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -87,6 +87,9 @@ class Kernel:
         self.module = module
         self._lock = lock
         self._laws = laws
+        # An entry point is always called with the same types: its machine code is kept, which saves
+        # finding out what they are, a twentieth of a millisecond.
+        self._entries: dict[str, Callable[..., Any]] = {}
         self._addresses: dict[str, int] = {}
 
     def __getattr__(self, name: str) -> Any:
@@ -94,33 +97,34 @@ class Kernel:
 
     def call(self, name: str, *arguments: Any) -> Any:
         """Call an entry point; the first call compiles it, one process at a time."""
-        function = getattr(self.module, name)
-        if not function.signatures:
-            with locked(self._lock) if self._lock else nullcontext():
-                self._compile(function, arguments)
-        return function(*arguments)
+        entry = self._entries.get(name)
+        if entry is None:
+            entry = self._entries[name] = self._made(name, arguments).entry_point
+        return entry(*arguments)
 
     def address(self, name: str, arguments: tuple[Any, ...]) -> int:
         """Address of an entry point for arguments of these types, compiled if need be."""
         if name not in self._addresses:
-            from numba import typeof
-
-            function = getattr(self.module, name)
-            signature = tuple(typeof(argument) for argument in arguments)
-            if signature not in function.overloads:
-                with locked(self._lock) if self._lock else nullcontext():
-                    self._compile(function, arguments)
-            made = function.overloads[signature]
+            made = self._made(name, arguments)
             symbol = made.fndesc.llvm_func_name
             self._addresses[name] = int(made.library.get_pointer_to_function(symbol))
         return self._addresses[name]
 
-    def _compile(self, function: Any, arguments: tuple[Any, ...]) -> None:
-        """Compile an entry point or load it; what is damaged on disk is compiled afresh."""
+    def _made(self, name: str, arguments: tuple[Any, ...]) -> Any:
+        """Machine code of an entry point for arguments of these types."""
         from numba import typeof
+
+        function = getattr(self.module, name)
+        signature = tuple(typeof(argument) for argument in arguments)
+        if signature not in function.overloads:
+            with locked(self._lock) if self._lock else nullcontext():
+                self._compile(function, signature)
+        return function.overloads[signature]
+
+    def _compile(self, function: Any, signature: tuple[Any, ...]) -> None:
+        """Compile an entry point or load it; what is damaged on disk is compiled afresh."""
         from numba.core.errors import NumbaError
 
-        signature = tuple(typeof(argument) for argument in arguments)
         try:
             function.compile(signature)
         except NumbaError as error:
@@ -147,23 +151,10 @@ def slots_of(chamber: Chamber) -> dict[str, Law]:
     return {name: getattr(chamber, name, IDLE_LAWS.get(name)) for name in CHAMBER_SLOTS}  # type: ignore[misc]
 
 
-def laws_of(engine: Engine, controller: Controller | None = None) -> dict[str, dict[str, Law]]:
-    """Laws of an engine, and of its controller if it has one, by place and slot."""
-    found = {
-        "left": slots_of(engine.left),
-        "right": slots_of(engine.right),
-        "engine": {name: getattr(engine, name) for name in ENGINE_SLOTS},
-    }
-    if controller is not None:
-        slots = (*CONTROL_SLOTS, ActuatorLaw.slot)
-        found["control"] = {name: getattr(controller, name) for name in slots}
-    return found
-
-
 def needs_motored_pressure(engine: Engine) -> bool:
     """Whether a law of the engine looks at the motored pressure."""
-    laws = (slots_of(chamber)["heat_transfer"] for chamber in engine.chambers)
-    return any(law.needs_motored_pressure for law in laws)  # type: ignore[attr-defined]
+    chambers: tuple[Any, Any] = engine.chambers
+    return any(side.heat_transfer.needs_motored_pressure for side in chambers)
 
 
 def check_laws(engine: Engine, controller: Controller | None = None) -> None:
@@ -174,9 +165,11 @@ def check_laws(engine: Engine, controller: Controller | None = None) -> None:
     LawError
         Naming law and method.
     """
-    for laws in laws_of(engine, controller).values():
-        for law in laws.values():
-            check_law(type(law))  # type: ignore[arg-type]
+    laws = _all_laws(engine, None)
+    if controller is not None:
+        laws += [getattr(controller, name) for name in (*CONTROL_SLOTS, ActuatorLaw.slot)]
+    for kind in _classes(laws):
+        check_law(kind)
 
 
 def kernel_for(
@@ -190,14 +183,53 @@ def kernel_for(
     been changed in this process, as in a notebook.
     """
     laws = _all_laws(engine, actuators)
-    classes = tuple(type(law) for law in laws)
-    state = tuple(fingerprint(law) for law in dict.fromkeys(classes) if not is_ours(law))
-    return _load(classes, modules, tuple(lengths_of(law) for law in laws), state)
+    known = _known(_classes(laws))
+    state = tuple(fingerprint(law) for law in known.own)
+    return _load(known.classes, modules, known.lengths or _all_lengths(laws), state)
+
+
+class Known(NamedTuple):
+    """What follows from the classes of some laws, whatever their numbers.
+
+    Attributes
+    ----------
+    classes : tuple of type
+        The classes, in the order of the record.
+    own : tuple of type
+        Those among them that are not the library's.
+    lengths : tuple of Lengths
+        Lengths of all series; empty if there are any, since they vary.
+    readers : tuple of callable
+        What takes the numbers of each law.
+    """
+
+    classes: tuple[Any, ...]
+    own: tuple[Any, ...]
+    lengths: tuple[Lengths, ...]
+    readers: tuple[Callable[[Law], Any], ...]
+
+
+@lru_cache(maxsize=256)
+def _known(classes: tuple[Any, ...]) -> Known:
+    """What follows from some classes."""
+    varies = any(_series_names(law) for law in classes)
+    own = tuple(law for law in dict.fromkeys(classes) if not is_ours(law))
+    lengths = () if varies else ((),) * len(classes)
+    return Known(classes, own, lengths, tuple(_reader(law) for law in classes))
+
+
+def _classes(laws: Sequence[Law]) -> tuple[Any, ...]:
+    return tuple(map(type, laws))
+
+
+def _all_lengths(laws: Sequence[Law]) -> tuple[Lengths, ...]:
+    return tuple(map(lengths_of, laws))
 
 
 def _all_laws(engine: Engine, actuators: ActuatorLaw | None) -> list[Law]:
     """Laws of an engine in the order of its record."""
-    laws = [law for place in laws_of(engine).values() for law in place.values()]
+    laws = [law for chamber in engine.chambers for law in slots_of(chamber).values()]
+    laws += [getattr(engine, name) for name in ENGINE_SLOTS]
     return [*laws, actuators or IDLE_ACTUATORS]
 
 
@@ -209,21 +241,23 @@ def is_ours(law: type[Law]) -> bool:
 def parameters(engine: Engine, actuators: ActuatorLaw | None = None) -> np.ndarray:
     """All numbers of the laws of an engine and its actuators as an array of one record."""
     laws = _all_laws(engine, actuators)
-    record = _record_of_all(tuple(type(law) for law in laws), tuple(map(lengths_of, laws)))
+    known = _known(_classes(laws))
+    record = _record_of_all(known.classes, known.lengths or _all_lengths(laws))
     return np.array(numbers_of(laws), np.float64).view(record)
 
 
 def numbers_of(laws: Sequence[Law]) -> list[float]:
     """Numbers of some laws in the order of their records."""
-    flat: list[float] = []
-    for law in laws:
-        kind: Any = type(law)
-        if _series_names(kind):
-            for value in values_of(law):
-                flat.extend(value if isinstance(value, (tuple, list)) else (value,))
-        else:
-            flat.extend(values_of(law))
-    return flat
+    known = _known(_classes(laws))
+    pairs = zip(known.readers, laws, strict=True)
+    flat = [value for read, law in pairs for value in read(law) or (0.0,)]
+    if known.lengths:
+        return flat
+    return [
+        number
+        for value in flat
+        for number in (value if isinstance(value, (tuple, list)) else (value,))
+    ]
 
 
 @lru_cache(maxsize=256)
@@ -271,12 +305,6 @@ def _record(law: Any, lengths: Lengths) -> np.dtype:
         for name in names_of(law)
     ]
     return np.dtype(items or [("nothing", np.float64)])
-
-
-def values_of(law: Law) -> tuple[Any, ...]:
-    """Numbers of a law in the order of its record."""
-    kind: Any = type(law)
-    return _reader(kind)(law) or (0.0,)
 
 
 def lengths_of(law: Law) -> Lengths:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator
@@ -55,6 +56,8 @@ class LinearLoad(RegulatedAlternator):
         See :class:`RegulatedAlternator`.
     """
 
+    mirrors: ClassVar[bool] = True
+
     load_constant: float = quantity("N s/m", default=70.0, low=0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
@@ -82,6 +85,8 @@ class ConstantForce(RegulatedAlternator):
     regulator_gain, target_stroke, maximum_weight : float
         See :class:`RegulatedAlternator`.
     """
+
+    mirrors: ClassVar[bool] = True
 
     amplitude: float = quantity("N", default=1000.0, low=0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
@@ -113,6 +118,8 @@ class CosineForce(RegulatedAlternator):
     regulator_gain, target_stroke, maximum_weight : float
         See :class:`RegulatedAlternator`.
     """
+
+    mirrors: ClassVar[bool] = True
 
     amplitude: float = quantity("N", default=1500.0, low=0)
     half_stroke: float = quantity("m", default=0.1, low=0, open_low=True)
@@ -152,6 +159,8 @@ class CircuitAlternator(RegulatedAlternator):
     regulator_gain, target_stroke, maximum_weight : float
         See :class:`RegulatedAlternator`.
     """
+
+    mirrors: ClassVar[bool] = True
 
     flux_gradient: float = quantity("V s/m", default=50.0)
     inductance: float = quantity("H", default=5e-3, low=0, open_low=True)

@@ -47,6 +47,9 @@ class Law:
         (:mod:`saleg.kernel.powers`).
     valid_for : tuple of Validity
         Ranges the law was made for; a run says where it left them.
+    mirrors : bool
+        Whether its forces are the same in the mirror whatever its numbers; if not, a search for
+        steady states finds out.
     """
 
     slot: ClassVar[str] = ""
@@ -54,6 +57,7 @@ class Law:
     optional: ClassVar[tuple[str, ...]] = ()
     at_every_step: ClassVar[tuple[str, ...]] = ()
     valid_for: ClassVar[tuple[Validity, ...]] = ()
+    mirrors: ClassVar[bool] = False
 
 
 class GasProperties(Law):

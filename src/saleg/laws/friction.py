@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Friction
@@ -12,6 +13,8 @@ from saleg.quantities import quantity
 @dataclass(frozen=True)
 class NoFriction(Friction):
     """No friction at all."""
+
+    mirrors: ClassVar[bool] = True
 
     def at_dead_centre(self, held: float, stroke: Stroke) -> float:
         """Nothing is held: zero."""
@@ -34,6 +37,8 @@ class ConstantFriction(Friction):
     factor : float
         Leading coefficient A [kg/m^2/s]; 150 in Blair's correlation.
     """
+
+    mirrors: ClassVar[bool] = True
 
     factor: float = quantity("kg/m^2/s", default=150.0, low=0)
 
@@ -62,6 +67,8 @@ class CoulombViscousFriction(Friction):
         Coefficient f2 [N s/m].
     """
 
+    mirrors: ClassVar[bool] = True
+
     coulomb: float = quantity("N", default=50.0, low=0)
     viscous: float = quantity("N s/m", default=8.0, low=0)
 
@@ -83,6 +90,8 @@ class ViscousFriction(Friction):
     coefficient : float
         Friction coefficient c_f [N s/m].
     """
+
+    mirrors: ClassVar[bool] = True
 
     coefficient: float = quantity("N s/m", default=0.0, low=0)
 
@@ -106,6 +115,8 @@ class BlairViscousFriction(Friction):
     factor : float
         Leading coefficient A [kg/m^2/s]; 13.7 is inferred from the thesis' base case.
     """
+
+    mirrors: ClassVar[bool] = True
 
     factor: float = quantity("kg/m^2/s", default=13.7, low=0)
 
@@ -136,6 +147,8 @@ class FrictionShare(Friction):
     initial : float
         Coefficient before the first fuel is known [N s/m].
     """
+
+    mirrors: ClassVar[bool] = True
 
     share: float = quantity("-", default=0.06, low=0, high=1)
     relaxation: float = quantity("-", default=0.5, low=0, high=1, open_low=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Springs
@@ -20,6 +21,8 @@ class LinearSprings(Springs):
     stiffness : float
         Stiffness k of one spring [N/m].
     """
+
+    mirrors: ClassVar[bool] = True
 
     stiffness: float = quantity("N/m", default=30e3, low=0)
 
