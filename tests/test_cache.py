@@ -164,7 +164,7 @@ def test_left_and_right_may_have_different_laws(base):
 def test_parallel_cold_starts(tmp_path):
     cache = tmp_path / "cache"
     env = {**os.environ, "SALEG_CACHE_DIR": str(cache)}
-    code = f"import saleg\n{BASE}\n{REPORT}"
+    code = f"import saleg\n{BASE}\nwhole = True\n{REPORT}"
     workers = [
         subprocess.Popen(
             [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=env
@@ -199,7 +199,7 @@ def test_a_folder_others_may_write_to_is_not_used(tmp_path, monkeypatch):
     monkeypatch.setenv("SALEG_CACHE_DIR", str(shared))
     with pytest.warns(RuntimeWarning, match="others may write"):
         assert usable_folder() is None
-    out = script(tmp_path, f"import saleg\n{BASE}\n{REPORT}", shared)
+    out = script(tmp_path, f"import saleg\n{BASE}\nwhole = True\n{REPORT}", shared)
     assert "others may write" in out.stderr
     assert list(shared.iterdir()) == []
 

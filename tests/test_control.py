@@ -131,6 +131,12 @@ def test_how_many_strokes_without_fuel_are_survived(transient):
     assert (without.motor_returns == 0).all()
 
 
+def test_nothing_recovers_from_what_has_not_happened(transient, started):
+    with pytest.raises(SalegError, match="duration"):
+        control.misfire(transient, at=1.5, duration=1.0)
+    assert math.isnan(control.recovery_time(started, 5.0))
+
+
 def test_an_overloaded_engine_misfires_and_fires_late(transient):
     """Fig. 107: misfire, ring-down, and a trapped charge that lights once the walls heat it."""
     run = control.overload(transient)
@@ -322,10 +328,9 @@ def test_a_lag_is_of_first_order(at_rest):
     run = control.simulate(engine, Plain(), 0.6, actuators=Actuators(load_lag=lag))
     table = run.dead_centres
     begin = table.t[table.t >= 0.3].iloc[0]
-    before = table.t[table.t < 0.3].iloc[-1]
     after = table[table.t > begin]
-    # The weight in a stroke was set where the stroke began, by the time since the last command.
-    passed = np.concatenate([[begin], after.t.to_numpy()[:-1]]) - before
+    # The weight in a stroke was set where the stroke began.
+    passed = np.concatenate([[begin], after.t.to_numpy()[:-1]]) - begin
     np.testing.assert_allclose(after.load_weight, 1.0 - 0.2 * np.exp(-passed / lag), rtol=1e-9)
 
 
@@ -400,6 +405,47 @@ def test_a_compiled_part_that_fails_ends_the_run_and_is_named(transient):
     python = control.simulate(transient, controller, 1.0, compiled=False)
     assert python.status is Status.CONTROLLER_FAULT
     assert len(python.strokes) == 9
+
+
+@dataclasses.dataclass(frozen=True)
+class Asserting(LoadControl):
+    """Fails by an assertion after a while."""
+
+    def weight(self, held, signals):
+        assert signals.t < 0.1
+        return 1.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Dividing(LoadControl):
+    """Fails at once: there is no frequency before the first stroke."""
+
+    def weight(self, held, signals):
+        return 45.0 / signals.frequency
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+@pytest.mark.parametrize(
+    ("part", "error"), [(Asserting(), "AssertionError"), (Dividing(), "ZeroDivisionError")]
+)
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_a_part_that_raises_ends_the_run_and_is_named(transient, part, error, compiled):
+    run = control.simulate(transient, Controller(load_control=part), 0.3, compiled=compiled)
+    assert run.status is Status.CONTROLLER_FAULT
+    assert f"load_control {type(part).__name__} raised {error}" in run.message
+    assert run.duration < 0.12
+
+
+def test_nothing_hangs(at_rest):
+    for sample_time in (1e-18, 1e-300):
+        with pytest.raises(SalegError, match="sample_time"):
+            control.simulate(at_rest, Controller(), 1.0, sample_time=sample_time)
+    plant = Plant(at_rest, 1.0)
+    with pytest.raises(ControllerError, match="sweep"):
+        plant.command(motor(plant.signals, 264.0, 38.0, sweep=1e300))
+    plant.advance(0.1)
+    with pytest.raises(SalegError, match="too short"):
+        plant.advance(1e-300)
 
 
 def test_a_first_command_beyond_the_limits_ends_the_run_at_once(at_rest):
@@ -507,6 +553,63 @@ def test_noise_delay_and_resolution_reach_the_controller(at_rest):
         control.simulate(engine, Listening(), 0.1, sensors=Sensors(position_noise=-1.0, delay=-1))
 
 
+def test_between_dead_centres_there_is_nothing_new_to_measure(at_rest):
+    """Perfect sensors read at intervals start the engine as well as none."""
+    controller = CONTROLLERS["start-up"]
+    run = control.simulate(at_rest, controller, 1.5, sensors=Sensors(), sample_time=1e-3)
+    plain = control.simulate(at_rest, controller, 1.5, sample_time=1e-3)
+    assert control.fired_at(run) == control.fired_at(plain) < 0.6
+    assert run.performance.compression_ratio == pytest.approx(
+        plain.performance.compression_ratio, rel=1e-9
+    )
+
+
+def test_noise_reaches_the_regulator(transient):
+    run = control.simulate(transient, Regulated(), 0.6, sensors=Sensors(position_noise=1e-3))
+    assert np.std(run.dead_centres.load_weight.iloc[-20:]) > 0.01
+
+
+class Regulated:
+    def act(self, signals):
+        return generator(signals)
+
+
+def test_a_fuel_cut_counts_strokes_not_samples(at_rest):
+    controller = Controller(motor_control=RAPID, fuel_control=FuelCut(at=1.2, strokes=3.0))
+    least = []
+    for sample_time in (None, 5e-4):
+        run = control.simulate(at_rest, controller, 1.35, compiled=False, sample_time=sample_time)
+        table = run.dead_centres
+        least.append(table.compression_ratio[table.t > 1.2].min())
+    assert least[0] == pytest.approx(least[1], rel=0.02)
+
+
+def test_an_actuator_moves_on_after_a_single_command(transient):
+    plant = Plant(transient, 1.0, actuators=Actuators(load_lag=0.1))
+    plant.command(generator(plant.signals, load_weight=0.5))
+    plant.advance(0.05)
+    plant.command(generator(plant.signals, load_weight=1.0))
+    assert plant._course.state.engine["load_weight"][0] == 0.5  # it only begins to move
+    for _ in range(10):
+        plant.advance(0.01)
+    plant.command(generator(plant.signals, load_weight=1.0))
+    reached = 1.0 - 0.5 * math.exp(-0.1 / 0.1)
+    assert plant._course.state.engine["load_weight"][0] == pytest.approx(reached, rel=1e-12)
+
+
+def test_engines_without_fuel_and_with_unlike_sides_are_controlled(transient):
+    chamber = saleg.BounceChamber(bore=0.0345, half_stroke=0.0467)
+    closed = saleg.Engine.mirrored(
+        saleg.Translator(mass=4.93), chamber, springs=transient.springs, start=AtRest()
+    )
+    table = control.motored(closed, [38.0], [66.0], duration=1.0)
+    assert table.stroke.iloc[0] > 1e-3
+    unlike = transient.replace(**{"left.equivalence_ratio": 0.0})
+    run = control.simulate(unlike, Regulated(), 0.3)
+    plain = saleg.simulate(unlike, 0.3)
+    np.testing.assert_allclose(run.dead_centres.t, plain.dead_centres.t, rtol=1e-9)
+
+
 def test_start_up_survives_coarse_sensors(at_rest):
     sensors = Sensors(position_noise=2e-5, position_resolution=1e-5, time_resolution=1e-5, delay=1)
     run = control.simulate(at_rest, CONTROLLERS["start-up"], 2.0, sensors=sensors)
@@ -556,6 +659,8 @@ def test_a_demand_from_a_file_and_from_arrays(tmp_path):
     path.write_text("t [s],power [W]\n0,3900\n2,3900\n2,1900\n")
     read = Demand.read(path)
     assert read == Demand.of(np.array([0, 2, 2]), [3900, 3900, 1900])
+    path.write_text("0,3900\n2,3900\n2,1900\n")
+    assert Demand.read(path) == read
     path.write_text("t,power\n0,3900\n1,abc\n")
     with pytest.raises(InvalidController, match="line 3"):
         Demand.read(path)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -137,16 +138,19 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
 
 
 def _rate(E: Any, C: Any) -> None:
-    """Note fuel and intake temperature the engine is built with: those of its first cylinder."""
-    fired = [c for c in C if c.lower_heating_value > 0.0]
-    if not fired:
-        return
-    E.rated_equivalence_ratio = E.equivalence_ratio = fired[0].equivalence_ratio_wanted
-    E.rated_intake_temperature = E.intake_temperature = fired[0].intake_temperature
+    """Note fuel and intake temperature the engine is built with: those of its first fired side."""
+    first = C[rated_side([c.equivalence_ratio_wanted for c in C])]
+    E.rated_equivalence_ratio = E.equivalence_ratio = first.equivalence_ratio_wanted
+    E.rated_intake_temperature = E.intake_temperature = first.intake_temperature
     rated = E.rated_equivalence_ratio
-    for c in fired:
+    for c in C:
         c.beside_rated_temperature = c.intake_temperature - E.rated_intake_temperature
         c.over_rated_fuel = c.equivalence_ratio_wanted / rated if rated > 0.0 else 1.0
+
+
+def rated_side(ratios: Sequence[float]) -> int:
+    """Side whose fuel and intake are the engine's rated ones: the first with any fuel, else 0."""
+    return next((side for side, ratio in enumerate(ratios) if ratio > 0.0), 0)
 
 
 def current_scale(engine: Engine, load_weight: float, speed: float) -> float:

@@ -232,6 +232,11 @@ class Course:
         self._work = work_space(len(method.b))
 
     @property
+    def commanded(self) -> np.ndarray:
+        """What a controller in the kernel has asked for last."""
+        return self._control[-1]
+
+    @property
     def strokes(self) -> np.ndarray:
         """Rows of all strokes so far."""
         return self.records.kept_strokes.joined()

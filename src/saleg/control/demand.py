@@ -69,25 +69,33 @@ class Demand:
 
     @classmethod
     def read(cls, path: str | Path) -> Demand:
-        """A demand from a CSV file of two columns, times [s] and powers [W], with a header line.
+        """A demand from a CSV file of two columns, times [s] and powers [W].
+
+        A first line of words is taken for a header.
 
         Raises
         ------
         InvalidController
             Naming the line that cannot be read.
         """
+        try:
+            text = Path(path).read_text(encoding="utf-8")
+        except UnicodeDecodeError as error:
+            problem = Problem(str(path), str(error), "", "must be text in UTF-8")
+            raise InvalidController([problem]) from None
         times, powers = [], []
-        with Path(path).open(newline="", encoding="utf-8") as file:
-            for number, row in enumerate(csv.reader(file), start=1):
-                if number == 1 or not row:
-                    continue
-                try:
-                    t, power = (float(value) for value in row)
-                except ValueError:
+        for number, row in enumerate(csv.reader(text.splitlines()), start=1):
+            if not row:
+                continue
+            try:
+                t, power = (float(value) for value in row)
+            except ValueError:
+                if number > 1:
                     where = f"{path}, line {number}"
                     raise InvalidController(
                         [Problem(where, ",".join(row), "", "must be two numbers")]
                     ) from None
-                times.append(t)
-                powers.append(power)
+                continue
+            times.append(t)
+            powers.append(power)
         return cls.of(times, powers)

@@ -23,7 +23,9 @@ from saleg.laws.intake_control import HeatedIntake
 from saleg.laws.load_control import PowerDemand, ScaledLoad, StrokeRegulator
 from saleg.laws.motor_control import ResonanceSearch, SteadyMotor
 from saleg.laws.state_logic import AlwaysMotored, CompressionThreshold
+from saleg.quantities import is_number
 from saleg.results import Run
+from saleg.simulate import SettingsError
 from saleg.start import AtRest
 from saleg.steady import steady_state
 
@@ -392,6 +394,8 @@ def misfire(
     Run
         :func:`recovery_time` says how long it took.
     """
+    if is_number(duration) and is_number(at) and not duration > at:
+        raise SettingsError(f"duration = {duration!r}: must be > at ({at:g} s)")
     controller = rapid_start(
         state_logic=CompressionThreshold(latched=0.0 if motor else 1.0),
         fuel_control=FuelCut(at=at, strokes=float(strokes)),
@@ -419,7 +423,7 @@ def recovery_time(run: Run, at: float) -> float:
     most = run.engine.maximum_stroke
     ratio = (most + length) / (most - length)
     before = np.flatnonzero(t <= at)
-    if not len(before):
+    if not len(before) or not t[-1] > at:
         return math.nan
     away = np.abs(ratio / ratio[before[-1]] - 1.0) > RECOVERED
     if away[-1]:

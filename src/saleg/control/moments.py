@@ -64,7 +64,9 @@ def fuel_cuts(run: Run) -> list[tuple[float, float]]:
 
 
 def first_misfire(run: Run) -> float:
-    """When a charge with fuel first missed its dead centre [s]; NaN if none did.
+    """When a charge with fuel first failed to light [s], at its dead centre; NaN if none did.
+
+    One that lights late, before its ports open, has not failed.
 
     Parameters
     ----------
@@ -74,8 +76,13 @@ def first_misfire(run: Run) -> float:
     -------
     float
     """
-    times = run.event_rows["t"][run.event_rows["kind"] == layout.EVENT_MISFIRE]
-    return float(times[0]) if len(times) else math.nan
+    rows = run.event_rows
+    for index in np.flatnonzero(rows["kind"] == layout.EVENT_MISFIRE):
+        after = rows[index:][rows["side"][index:] == rows["side"][index]]
+        ends = np.isin(after["kind"], (layout.EVENT_IGNITION, layout.EVENT_PORT_OPENING))
+        if not ends.any() or after["kind"][ends][0] != layout.EVENT_IGNITION:
+            return float(rows["t"][index])
+    return math.nan
 
 
 def late_ignitions(run: Run) -> np.ndarray:

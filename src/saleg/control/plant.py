@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.control.verdict import fault_message, verdict_of
+from saleg.control.verdict import blamed, fault_message, verdict_of
 from saleg.controller import Controller
 from saleg.engine import Engine
 from saleg.errors import ControllerError
@@ -80,6 +80,7 @@ class Plant:
         self._end = float(course.options["t_end"][0])
         self._code = layout.BUFFER_FULL
         self._commanded = False
+        self._latest: Commands | None = None
         self._at_dead_centres = True
         self._log: dict[int, Commands] = {}
 
@@ -119,12 +120,13 @@ class Plant:
         """
         if not isinstance(commands, Commands):
             raise ControllerError(f"must be Commands, not {type(commands).__name__}")
-        wrong = [name for name, value in commands._asdict().items() if not is_number(value)]
+        plain = commands._asdict().items()
+        wrong = [n for n, value in plain if not (is_number(value) or isinstance(value, bool))]
         if wrong:
             raise ControllerError(f"{', '.join(wrong)}: must be a number")
         commands = Commands(*(float(value) for value in commands))
         give(self._course, commands, first=not self._commanded)
-        self._commanded = True
+        self._commanded, self._latest = True, commands
         self._log[int(self._course.state.engine["strokes"][0])] = commands
 
     def advance(self, duration: float | None = None) -> None:
@@ -142,12 +144,15 @@ class Plant:
         """
         if not self.running:
             raise SettingsError("the run is over: there is nothing to advance to")
+        self._hold()
         end = self._end
         E, O = self._course.state.engine, self._course.options
         O["last_stroke"], O["t_end"] = E["strokes"] + 1.0, end
         if duration is not None:
             if not is_number(duration) or not 0.0 < duration < math.inf:
                 raise SettingsError(f"duration = {duration!r}: must be a number > 0 [s]")
+            if self.time + duration <= self.time:
+                raise SettingsError(f"duration = {duration!r}: too short to move the time on [s]")
             self._at_dead_centres = False
             O["last_stroke"], O["t_end"] = math.inf, min(end, self.time + duration)
         code = layout.BUFFER_FULL
@@ -155,6 +160,12 @@ class Plant:
             code = self._course.advance()
         if code != layout.END_OF_TIME or self.time >= end:
             self._code = code
+
+    def _hold(self) -> None:
+        """Let the actuators move on where no command has been given since the last advance."""
+        if self._commanded and self._latest is None:
+            give(self._course, standing_orders(self._course.state), first=False)
+        self._latest = None
 
     def run(self, fault: str = "") -> Run:
         """What has been recorded so far.
@@ -228,12 +239,28 @@ def give(course: Course, commands: Commands, first: bool) -> None:
     was = float(E.motoring)
     elapsed = math.inf if first else float(E.t - E.t_command)
     obey(course.controller, E, C, commands, elapsed)
-    if E.fault > 0.0:
-        number = int(E.fault)
-        E.fault = 0.0
-        raise ControllerError(fault_message(number, commands, course.controller))
+    if E.fault != 0.0:
+        fault, E.fault = float(E.fault), 0.0
+        raise ControllerError(fault_message(fault, commands, course.controller or Controller()))
     if E.motoring != was:
         note_motor(course)
+
+
+def standing_orders(state: State) -> Commands:
+    """Commands that change nothing of what was commanded last, the motor's frequency gone on."""
+    E, _ = state.records
+    gone = float(E.t - E.t_command)
+    return Commands(
+        float(E.motoring),
+        float(E.asked_load_weight),
+        float(E.asked_amplitude),
+        float(E.motor_frequency + E.motor_sweep * gone),
+        float(E.motor_sweep),
+        0.0,
+        0.0,
+        float(E.asked_equivalence_ratio),
+        float(E.asked_intake_temperature),
+    )
 
 
 def note_motor(course: Course) -> None:
@@ -270,5 +297,16 @@ class InPython:
         self.held = np.zeros((layout.CONTROL_PARTS, layout.HELD))
 
     def act(self, signals: Signals) -> Commands:
-        """Commands at a dead centre."""
-        return Commands(*(float(value) for value in decide(self.controller, self.held, signals)))
+        """Commands at a dead centre.
+
+        Raises
+        ------
+        ControllerError
+            Naming the part that failed.
+        """
+        before = self.held.copy()
+        try:
+            commands = decide(self.controller, self.held, signals)
+        except Exception as error:  # whatever a part does, the run says so
+            raise ControllerError(blamed(self.controller, before, signals)) from error
+        return Commands(*(float(value) for value in commands))

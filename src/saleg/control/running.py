@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
     import pandas as pd
 
+#: Most samples of a run: fewer than a controller in Python gets through in an hour.
+MOST_SAMPLES = 1e8
 #: Columns of a table of runs under controllers.
 CONTROL_UNITS = {
     **RUN_UNITS,
@@ -111,8 +113,11 @@ def simulate(
         raise SettingsError("actuators: a Controller has its own; replace those")
     if compiled and isinstance(controller, Controller):
         return _compiled(engine, controller, duration, settings)
-    if sample_time is not None and (not is_number(sample_time) or not 0 < sample_time < math.inf):
-        raise SettingsError(f"sample_time = {sample_time!r}: must be a number > 0 [s]")
+    if sample_time is not None and (
+        not is_number(sample_time) or not MOST_SAMPLES * sample_time >= duration > 0.0
+    ):
+        least = duration / MOST_SAMPLES if is_number(duration) else 0.0
+        raise SettingsError(f"sample_time = {sample_time!r}: must be a number >= {least:g} [s]")
     acting: Acts
     if isinstance(controller, Controller):
         controller.validate()
@@ -122,7 +127,7 @@ def simulate(
     if not callable(getattr(acting, "act", None)):
         raise SettingsError(f"{type(controller).__name__} has no method act(signals)")
     plant = Plant(engine, duration, actuators=actuators, **settings)
-    measurement = Measurement(sensors or Sensors())
+    measurement = Measurement(sensors or Sensors(), engine)
     return _in_python(plant, acting, measurement if sensors else None, sample_time)
 
 
@@ -133,7 +138,7 @@ def _compiled(engine: Engine, controller: Controller, duration: float, settings:
     try:
         give(course, parts.act(measured(course.state)), first=True)
     except ControllerError as error:
-        return course.run(*verdict_of(course, 0, f"{type(controller).__name__}: {error}"))
+        return course.run(*verdict_of(course, 0, str(error)))
     course.state.engine["held"][0] = parts.held.ravel()
     code = course.go_on()
     return course.run(*verdict_of(course, code), course.replay())
@@ -143,22 +148,31 @@ def _in_python(
     plant: Plant, controller: Acts, measurement: Measurement | None, sample_time: float | None
 ) -> Run:
     """Run with the controller asked between calls of the kernel."""
-    inner = getattr(controller, "controller", controller)
-    name = type(inner).__name__
+    name = "" if isinstance(controller, InPython) else f"{type(controller).__name__} "
     while plant.running:
         signals = plant.signals
         if measurement is not None:
             signals = measurement.of(signals)
         try:
             commands = controller.act(signals)
+        except ControllerError as error:
+            return plant.run(str(error))
         except Exception as error:  # whatever the user's code does, the run says so
-            return plant.run(f"{name} raised {type(error).__name__}: {error}")
+            return plant.run(f"{name}raised {described(error)}")
         try:
             plant.command(commands)
         except ControllerError as error:
-            return plant.run(f"{name}: {error}")
+            return plant.run(f"{name}commands {error}")
         plant.advance(sample_time)
     return plant.run()
+
+
+def described(error: Exception) -> str:
+    """Kind and text of an error, whatever its text does."""
+    try:
+        return f"{type(error).__name__}: {error}"
+    except Exception:
+        return type(error).__name__
 
 
 def generator(signals: Signals, **changes: float) -> Commands:
@@ -241,6 +255,8 @@ def simulate_many(
         many there were, ``motored_share``, the share of them that was motored, and ``farthest``,
         the greatest distance of a dead centre from the midpoint [m]. Units in ``.attrs``.
     """
+    if settings.get("keep_cycles") is not None:
+        raise SettingsError("keep_cycles: the table looks back to the start; leave it out")
     one: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
     return table_of(one, pairs, CONTROL_UNITS, executor, workers, chunk, _kernel_of)
 
@@ -268,7 +284,7 @@ def motored_share(run: Run) -> float:
 
 
 def fired_at(run: Run) -> float:
-    """When the motor was first left for fuel and load [s]; NaN if never.
+    """When the motor was first left for fuel and load [s]; NaN if never, or no longer recorded.
 
     Parameters
     ----------

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
 
+from saleg.engine import Engine
 from saleg.errors import InvalidController
-from saleg.laws.arguments import Signals
+from saleg.laws.arguments import Signals, Stroke
 from saleg.quantities import Problem, problems, quantity
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sensors:
-    """Errors of measurement. Stroke and compression ratio follow from the positions measured.
+    """Errors of measurement. Stroke, compression ratio and regulator follow from what is measured.
+
+    The load weight the alternator's regulator (Eq. 59) asks for is that of the stroke measured.
 
     Parameters
     ----------
@@ -64,17 +68,26 @@ class Measurement:
     Parameters
     ----------
     sensors : Sensors
+    engine : Engine
+        Whose alternator has the regulator.
     """
 
-    def __init__(self, sensors: Sensors):
+    def __init__(self, sensors: Sensors, engine: Engine):
         sensors.validate()
-        self._sensors = sensors
+        self._sensors, self._engine = sensors, engine
         self._random = np.random.default_rng(sensors.seed)
         self._late: deque[Signals] = deque(maxlen=sensors.delay + 1)
         self._last: tuple[float, float] | None = None
+        self._dead_centre = (0.0, 0.0, 0.0)
 
     def of(self, true: Signals) -> Signals:
-        """What is measured of the signals of a dead centre."""
+        """What is measured of the signals of a dead centre.
+
+        Between two dead centres there is nothing new to measure.
+        """
+        if self._late and self._dead_centre == (true.x, true.stroke, true.direction):
+            return self._shown(true)
+        self._dead_centre = true.x, true.stroke, true.direction
         known = self._sensors
         noise, noise_of_power = self._random.standard_normal(2)
         x = _rounded(true.x + known.position_noise * noise, known.position_resolution)
@@ -84,11 +97,31 @@ class Measurement:
         self._last = x, t
         stroke = min(abs(x - x_before), (1.0 - 1e-9) * true.maximum_stroke)
         ratio = (true.maximum_stroke + stroke) / (true.maximum_stroke - stroke)
-        frequency = 0.5 / (t - t_before) if t > t_before else true.frequency
+        frequency = true.frequency
+        if known.time_resolution > 0.0 and t > t_before:
+            frequency = 0.5 / (t - t_before)
         seen = true._replace(
-            x=x, stroke=stroke, compression_ratio=ratio, frequency=frequency, power=power
+            x=x,
+            stroke=stroke,
+            compression_ratio=ratio,
+            frequency=frequency,
+            power=power,
+            regulated_weight=self._regulated(true, stroke, frequency),
         )
         self._late.append(seen)
+        return self._shown(true)
+
+    def _regulated(self, true: Signals, stroke: float, frequency: float) -> float:
+        """Load weight the regulator asks for when it goes by the stroke measured."""
+        if frequency <= 0.0:
+            return true.regulated_weight
+        area = 0.125 * math.pi * sum(chamber.bore**2 for chamber in self._engine.chambers)
+        most = true.maximum_stroke
+        seen = Stroke(stroke, 0.5 / frequency, most, 0.5 * most, area, 0.0, 0.0)
+        return float(self._engine.alternator.at_dead_centre(true.regulated_weight, seen))
+
+    def _shown(self, true: Signals) -> Signals:
+        """The signals of as many dead centres ago as they are late."""
         # Time and mode are the controller's own; all that is measured may be late.
         return self._late[0]._replace(
             t=true.t,
@@ -99,5 +132,6 @@ class Measurement:
 
 
 def _rounded(value: float, step: float) -> float:
-    """The nearest multiple of a step; the value itself if there is none."""
-    return float(step * round(value / step)) if step > 0.0 else float(value)
+    """The nearest multiple of a step; the value itself if there is none, or none to speak of."""
+    steps = value / step if step > 0.0 else math.inf
+    return step * round(steps) if math.isfinite(steps) else float(value)

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
+import numpy as np
+
 from saleg.controller import Controller
 from saleg.kernel import layout
-from saleg.laws.arguments import Commands
+from saleg.kernel.control import write_signals
+from saleg.kernel.decide import with_motoring
+from saleg.laws.arguments import Commands, Signals
+from saleg.laws.controlling import CONTROL_SLOTS, StateLogic
 from saleg.simulate import Course
 from saleg.status import Status
 from saleg.verdict import PER_CYCLE, STEADY, change_per_cycle, verdict
@@ -23,12 +31,55 @@ PARTS = {
 }
 
 
-def fault_message(number: int, commands: Commands | None, controller: Controller | None) -> str:
-    """Text that names a command out of its limits."""
-    name = Commands._fields[number - 1]
-    value = "" if commands is None else f" = {commands[number - 1]!r}"
-    law = "" if controller is None else type(controller.actuators).__name__
-    return f"{name}{value} is not finite or beyond the limits of {law or 'the actuators'}"
+def fault_message(fault: float, commands: Commands, controller: Controller) -> str:
+    """Text that names a command out of its limits, or actuators that do not work.
+
+    `fault` is what the actuators made of the commands: the number of one of them.
+    """
+    law = type(controller.actuators).__name__
+    if not (math.isfinite(fault) and 1 <= fault <= len(commands)):
+        return f"the actuators {law} give what is not finite or no number of a command ({fault})"
+    name, value = Commands._fields[int(fault) - 1], commands[int(fault) - 1]
+    return f"{name} = {value!r} is not finite or beyond the limits of {law}"
+
+
+def blamed(controller: Controller, held: np.ndarray, signals: Signals, fault: float = 0.0) -> str:
+    """Slot and law of the part that fails on these signals, with its error if it raises one.
+
+    Parameters
+    ----------
+    controller : Controller
+    held : ndarray, shape (CONTROL_PARTS, HELD)
+        What the parts held before.
+    signals : Signals
+    fault : float
+        Number of the command that is wrong, if no part raises an error.
+    """
+    held = held.copy()
+    for slot, base in CONTROL_SLOTS.items():
+        part: Any = getattr(controller, slot)
+        (method,) = base.compiled
+        try:
+            value = getattr(part, method)(held[list(CONTROL_SLOTS).index(slot)], signals)
+        except Exception as error:  # whatever the part does, the run says so
+            return f"{slot} {type(part).__name__} raised {type(error).__name__}: {error}"
+        if slot == StateLogic.slot:
+            signals = with_motoring(signals, value)
+    if not (math.isfinite(fault) and 1 <= fault <= len(PARTS)):
+        return "actuators"
+    slot = PARTS[Commands._fields[int(fault) - 1]]
+    return f"{slot} {type(getattr(controller, slot)).__name__}"
+
+
+def _compiled_fault(course: Course) -> str:
+    """What a controller in the kernel has done wrong; it is asked once more, as Python."""
+    assert course.controller is not None
+    E, values = course.state.engine[0], np.zeros(len(Signals._fields))
+    write_signals(course.state.records[0], values)
+    held = E["held"].reshape(layout.CONTROL_PARTS, layout.HELD)
+    fault, commands = float(E["fault"]), Commands(*course.commanded.tolist())
+    who = blamed(course.controller, held, Signals(*values.tolist()), fault)
+    return who if "raised" in who else f"{who}: {fault_message(fault, commands, course.controller)}"
 
 
 def verdict_of(course: Course, code: int, fault: str = "") -> tuple[Status, str]:
@@ -40,11 +91,7 @@ def verdict_of(course: Course, code: int, fault: str = "") -> tuple[Status, str]
     if fault:
         return Status.CONTROLLER_FAULT, f"at t = {t:.6g} s {fault}"
     if code == layout.CONTROLLER_FAULT:
-        number = int(E["fault"])
-        part = PARTS[Commands._fields[number - 1]]
-        law = type(getattr(course.controller, part)).__name__
-        why = fault_message(number, None, course.controller)
-        return Status.CONTROLLER_FAULT, f"at t = {t:.6g} s {part} {law}: {why}"
+        return Status.CONTROLLER_FAULT, f"at t = {t:.6g} s {_compiled_fault(course)}"
     strokes = course.strokes
     if code != layout.END_OF_TIME or E["direction"] == 0.0:
         return verdict(course.engine, code, course.state, strokes)

@@ -5,7 +5,7 @@ no other kernel; `control` is the address of its function, its numbers, and scra
 it holds, is shown and commands.
 """
 
-from math import pi
+from math import inf, isfinite, nan, pi
 
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import CONTROL_PARTS, HELD
@@ -40,11 +40,14 @@ def ask(E, control):
     write_signals(E, signals)
     for n in range(CONTROL_PARTS * HELD):
         held[n] = E.held[n]
+    for n in range(commands.shape[0]):
+        commands[n] = nan  # stays where the controller fails
     call_at(
         address, numbers.ctypes.data, held.ctypes.data, signals.ctypes.data, commands.ctypes.data
     )
-    for n in range(CONTROL_PARTS * HELD):
-        E.held[n] = held[n]
+    if isfinite(commands[0]):
+        for n in range(CONTROL_PARTS * HELD):
+            E.held[n] = held[n]
     return Commands(
         commands[0],
         commands[1],
@@ -68,20 +71,44 @@ def standing(E):
         E.motor_frequency,
         E.motor_sweep,
         0.0,
-        E.motor_phase,
+        0.0,
         E.equivalence_ratio,
         E.intake_temperature,
     )
 
 
+@inline
+def asked(E):
+    """What they were asked for last."""
+    return Commands(
+        E.motoring,
+        E.asked_load_weight,
+        E.asked_amplitude,
+        E.motor_frequency,
+        E.motor_sweep,
+        0.0,
+        0.0,
+        E.asked_equivalence_ratio,
+        E.asked_intake_temperature,
+    )
+
+
 @compiled
 def obey(P, E, C, wanted, elapsed):
-    """Set what is commanded, as far as the actuators follow; refuse what they cannot do."""
+    """Set what is commanded, as far as the actuators follow; refuse what they cannot do.
+
+    They have moved towards what was asked for last in the time elapsed since, for ever if this is
+    the first command; towards what is wanted now they begin to move.
+    """
     E.fault = actuators_refused(P, wanted)
-    if E.fault > 0.0:
+    if E.fault != 0.0:
         return
     angle = motor_angle(E, E.t)
-    now = actuators_follow(P, standing(E), wanted, elapsed)
+    moved = actuators_follow(P, standing(E), wanted if elapsed == inf else asked(E), elapsed)
+    now = actuators_follow(P, moved, wanted, 0.0)
+    if not isfinite(now.load_weight + now.amplitude + now.equivalence_ratio):
+        E.fault = nan
+        return
     E.t_command = E.t
     E.motoring = now.motoring
     E.load_weight = now.load_weight
@@ -91,6 +118,10 @@ def obey(P, E, C, wanted, elapsed):
     E.motor_phase = now.phase if now.sets_phase > 0.0 else angle % (2.0 * pi)
     E.equivalence_ratio = now.equivalence_ratio
     E.intake_temperature = now.intake_temperature
+    E.asked_load_weight = wanted.load_weight
+    E.asked_amplitude = wanted.amplitude
+    E.asked_equivalence_ratio = wanted.equivalence_ratio
+    E.asked_intake_temperature = wanted.intake_temperature
     supply(E, C)
 
 

@@ -270,7 +270,7 @@ def run_on(
                 keep_snapshot(E1, C, y, snapshot)
             if E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke:
                 return STALLED
-            if E.fault > 0.0:
+            if E.fault != 0.0:
                 return CONTROLLER_FAULT
             if E.strokes >= O.last_stroke:
                 return END_OF_TIME

@@ -161,6 +161,10 @@ ENGINE_RECORD = np.dtype(
             "motor_phase",
             "equivalence_ratio",
             "intake_temperature",
+            "asked_load_weight",
+            "asked_amplitude",
+            "asked_equivalence_ratio",
+            "asked_intake_temperature",
         )
     ]
     + [("held", np.float64, (CONTROL_PARTS * HELD,))]

@@ -14,15 +14,17 @@ from saleg.quantities import quantity
 class Actuators(ActuatorLaw):
     """Limits of every command, and first-order lags between a command and what it sets.
 
-    A command beyond its limits ends the run: a controller has to know them. Lags act from dead
-    centre to dead centre: there what a command sets moves by ``1 - exp(-elapsed / lag)`` of its
-    way, and stays. The first command of a run is in place at once.
+    A command beyond its limits ends the run: a controller has to know them. Lags act from command
+    to command: there what was set has moved by ``1 - exp(-elapsed / lag)`` of its way to what was
+    asked for last, and stays until the next. The first command of a run is in place at once.
 
     Parameters
     ----------
     most_load, most_force, most_frequency, most_fuel : float
         Largest load weight [-], amplitude [N] and frequency [Hz] of the motor, equivalence
         ratio [-]; the least is zero.
+    most_sweep : float
+        Fastest change of the frequency, up or down [Hz/s].
     coldest, hottest : float
         Limits of the intake temperature [K].
     load_lag, force_lag, fuel_lag, intake_lag : float
@@ -35,6 +37,7 @@ class Actuators(ActuatorLaw):
     most_load: float = quantity("-", default=10.0, low=0)
     most_force: float = quantity("N", default=1e5, low=0)
     most_frequency: float = quantity("Hz", default=1e3, low=0)
+    most_sweep: float = quantity("Hz/s", default=1e5, low=0)
     most_fuel: float = quantity("-", default=5.0, low=0)
     coldest: float = quantity("K", default=150.0, low=1.0)
     hottest: float = quantity("K", default=1000.0, low=1.0)
@@ -54,7 +57,7 @@ class Actuators(ActuatorLaw):
             return 3.0
         if not 0.0 <= wanted.frequency <= self.most_frequency:
             return 4.0
-        if not math.isfinite(wanted.sweep):
+        if not abs(wanted.sweep) <= self.most_sweep:
             return 5.0
         if not (wanted.sets_phase == 0.0 or wanted.sets_phase == 1.0):
             return 6.0

@@ -48,9 +48,12 @@ class FuelCut(FuelControl):
     strokes: float = quantity("-", default=1.0, low=0)
 
     def equivalence_ratio(self, held: Any, signals: Signals) -> float:
-        """Equivalence ratio [-]; holds how many strokes have gone without."""
-        if signals.t >= self.at and held[0] < self.strokes:
+        """Equivalence ratio [-]; holds the number of strokes since the cut, and the direction."""
+        begins = signals.direction != held[1]
+        held[1] = signals.direction
+        if begins and signals.t >= self.at:
             held[0] += 1.0
+        if 0.0 < held[0] <= self.strokes:
             return 0.0
         return 0.0 if signals.motoring > 0.0 else signals.rated_equivalence_ratio
 

@@ -25,6 +25,7 @@ from saleg.kernel.plain_rhs import (
     rates,
 )
 from saleg.laws.arguments import Gas, Motion, Stroke
+from saleg.prepare import rated_side
 from saleg.start import Contents, Initial
 
 #: Distance from a port at which it counts as reached, over the half stroke [-].
@@ -469,6 +470,7 @@ class RunningEngine:
         row["peak_velocity"] = self.peaks[layout.PEAK_VELOCITY]
         row["peak_acceleration"] = self.peaks[layout.PEAK_ACCELERATION]
         row["spring_energy"] = self.engine.springs.energy(motion)
+        row["equivalence_ratio"], row["intake_temperature"] = ratings(self.engine)
         for side in (0, 1):
             for name, value in vars(self.books[side]).items():
                 row[name][0, side] = value
@@ -539,3 +541,10 @@ def _stroke_before(engine: Engine, start: Initial, piston_area: float) -> Stroke
         fuel_energy=0.0,
         speed_squared=0.0,
     )
+
+
+def ratings(engine: Engine) -> tuple[float, float]:
+    """Equivalence ratio and intake temperature [K] the engine is built with."""
+    ratios = [getattr(chamber, "equivalence_ratio", 0.0) for chamber in engine.chambers]
+    side = rated_side(ratios)
+    return ratios[side], engine.chambers[side].filling.temperature
