@@ -140,25 +140,27 @@ def test_duty_cycle_marks_motor_and_fuel_cut(misfired):
 
 
 def test_first_misfire_and_late_ignitions_are_marked(started):
-    rows = np.zeros(6, layout.EVENT_RECORD)
-    rows["t"] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
-    rows["side"] = [0, 0, 1, 0, 0, 1]
+    rows = np.zeros(8, layout.EVENT_RECORD)
+    rows["t"] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.58, 0.6]
+    rows["side"] = [0, 0, 1, 0, 0, 0, 0, 1]
     rows["kind"] = [
         layout.EVENT_PORT_CLOSING,
         layout.EVENT_MISFIRE,
         layout.EVENT_IGNITION,  # of the other side
-        layout.EVENT_IGNITION,
+        layout.EVENT_IGNITION,  # late, but it lights
         layout.EVENT_PORT_CLOSING,
+        layout.EVENT_MISFIRE,
+        layout.EVENT_PORT_OPENING,
         layout.EVENT_IGNITION,
     ]
     run = dataclasses.replace(started, event_rows=rows)
     assert control.late_ignitions(run).tolist() == [0.4]
-    assert control.first_misfire(run) == 0.2
+    assert control.first_misfire(run) == 0.55
     assert math.isnan(control.first_misfire(started))
     ax = draw.duty_cycle(run, gas=True)[0]
     marks = {line.get_label(): line.get_xdata() for line in ax.get_lines()}
     assert list(marks["late ignition"]) == [0.4]
-    assert marks["first misfire"][0] == 0.2
+    assert marks["first misfire"][0] == 0.55
 
 
 def test_a_controlled_run_has_its_figure_beside_the_others(misfired, base_run):
@@ -191,6 +193,7 @@ def test_resonance_shades_where_the_ports_open():
             "compression_ratio": [1.2, 3.0, 1.5, 1.2],
             "opens_ports": [False, True, False, False],
             "opened_ports": [False, True, True, False],
+            "status": ["steady", "steady", "completed", "steady"],
         },
         {"motor_frequency": "Hz", "motor_amplitude": "N"},
     )

@@ -230,6 +230,8 @@ class Course:
             self.options,
         )
         self._work = work_space(len(method.b))
+        #: What else people want to know of how the run came about.
+        self.described: dict[str, Any] = {}
 
     @property
     def commanded(self) -> np.ndarray:
@@ -287,7 +289,7 @@ class Course:
             history_rows=self.records.finished_history(),
             evaluations=int(self.state.engine["evaluations"][0]),
             steps=int(self.state.engine["steps"][0]),
-            settings=_described(self.settings),
+            settings={**_described(self.settings), **self.described},
             replay=replay,
         )
 

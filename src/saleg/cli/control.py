@@ -58,7 +58,7 @@ def add_to(commands: Any) -> None:
         dest="motor",
         help="the motor does not come back (misfire)",
     )
-    add("--demand", type=Path, metavar="FILE.csv", help="times [s] and powers [W], with a header")
+    add("--demand", type=Path, metavar="FILE.csv", help="times [s] and powers [W], two columns")
     add("--out", type=Path, metavar="DIR", help="write pictures and tables to a new folder")
     add("--animate", type=Path, metavar="FILE", help="write the last cycle as .gif or .html")
     add("--force", action="store_true", help="replace DIR and FILE of an earlier experiment")
@@ -167,7 +167,7 @@ def _write(folder: Path, engine: Engine, experiment: Experiment, done: Done) -> 
     from saleg.export.csv_folder import write_text
     from saleg.plotting import control as draw
 
-    write_text(folder / ENGINE, engine.to_toml())
+    write_text(folder / ENGINE, (engine if done.run is None else done.run.engine).to_toml())
     if done.run is not None:
         write_frame(folder / "dead_centres.csv", done.run.dead_centres)
         write_frame(folder / "cycles.csv", done.run.cycles)

@@ -337,7 +337,7 @@ def _report_overload(done: Done) -> list[Line]:
     late = control.late_ignitions(run)
     ratio = "-" if math.isnan(missed) else f"{_state_at(run, missed).compression_ratio:.2f}"
     return [
-        Line("first misfire", _seconds(missed), "near 3 s"),
+        Line("first charge that does not light", _seconds(missed), "near 3 s"),
         Line("compression ratio there", ratio, "below 10"),
         Line("late ignitions", f"{len(late)}", "one, with the ports closed"),
         Line("last of them", _seconds(late[-1] if len(late) else math.nan)),

@@ -84,6 +84,18 @@ class Plant:
         self._at_dead_centres = True
         self._log: dict[int, Commands] = {}
 
+    def describe(self, controller: object) -> None:
+        """Say in the settings of the run what controls it: the laws with their numbers, or a name.
+
+        Parameters
+        ----------
+        controller : object
+            What gives the commands.
+        """
+        laws = isinstance(controller, InPython)
+        text = repr(controller.controller) if laws else type(controller).__name__  # type: ignore[attr-defined]
+        self._course.described["controller"] = text
+
     @property
     def engine(self) -> Engine:
         """The engine."""

@@ -134,6 +134,7 @@ def simulate(
 def _compiled(engine: Engine, controller: Controller, duration: float, settings: Any) -> Run:
     """Run with the controller in the kernel; its first commands are given here."""
     course = course_of(engine, controller, duration, layout.COMPILED, settings)
+    course.described["controller"] = repr(controller)
     parts = InPython(controller)
     try:
         give(course, parts.act(measured(course.state)), first=True)
@@ -148,6 +149,7 @@ def _in_python(
     plant: Plant, controller: Acts, measurement: Measurement | None, sample_time: float | None
 ) -> Run:
     """Run with the controller asked between calls of the kernel."""
+    plant.describe(controller)
     name = "" if isinstance(controller, InPython) else f"{type(controller).__name__} "
     while plant.running:
         signals = plant.signals

@@ -19,11 +19,14 @@ from saleg.plotting.style import (
     panels_or_new,
 )
 from saleg.plotting.sweeps import NO_FIGURES, STABLE, draw_kind, kinds, label, values
+from saleg.status import Status
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+#: How runs that still change are called.
+UNSETTLED = "not settled: its last cycle"
 #: Shades where the ports open.
 PORTS_COLOUR = "#56B4E9"
 PORTS = {
@@ -191,9 +194,14 @@ def _motored(
     ordered = table.sort_values(x)
     ordered.attrs = table.attrs
     at = values(ordered, x)
+    beats = ordered["status"].to_numpy() != str(Status.STEADY)
     for panel, name in zip(panels, ("relative_stroke", "compression_ratio"), strict=True):
         look: dict[str, Any] = {"marker": ".", "markersize": 4, "linewidth": 1.4}
-        panel.plot(at, values(ordered, name), color=TRANSLATOR_COLOUR, **look)
+        heights = values(ordered, name)
+        panel.plot(at, heights, color=TRANSLATOR_COLOUR, **look)
+        if beats.any():
+            look = {"markerfacecolor": "white", "markeredgecolor": TRANSLATOR_COLOUR}
+            panel.plot(at[beats], heights[beats], "o", markersize=4.5, label=UNSETTLED, **look)
         for column, (text, alpha) in PORTS.items():
             _shade(panel, at, ordered[column].to_numpy(dtype=bool), label=text, alpha=alpha)
         panel.set_ylabel(label(ordered, name).replace("stroke over maximum", "relative"))
