@@ -26,7 +26,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.rhs import height_of
-from saleg.kernel.slots import run_at
+from saleg.kernel.run_plainly import run_at
 from saleg.kernel.switch import begin_stroke
 
 # What do_orbit is asked for.

@@ -141,13 +141,6 @@ def call_at(address: int, numbers: int, held: int, signals: int, commands: int) 
     CFUNCTYPE(None, *[c_void_p] * 4)(address)(numbers, held, signals, commands)
 
 
-def run_at(address: int, arguments: tuple[Any, ...]) -> int:
-    """Call the integrator; in plain Python there is but one."""
-    from saleg.kernel.integrate import run_on
-
-    return int(run_on(*arguments))
-
-
 def state_logic_motors(P: Any, held: Any, signals: Signals) -> float:
     """Whether the alternator is a motor."""
     return P.state_logic.motors(held, signals)
