@@ -54,7 +54,13 @@ def test_links_lead_somewhere():
 
 @pytest.mark.parametrize(
     ("example", "name"),
-    [("01_base_case.py", "base_case.png"), ("04_convergence.py", "convergence.png")],
+    [
+        ("01_base_case.py", "base_case.png"),
+        ("04_convergence.py", "convergence.png"),
+        ("07_design_sweep.py", "sweep_bore.png"),
+        ("08_steady_states.py", "steady_states.png"),
+        ("09_control.py", "control_start_up.png"),
+    ],
 )
 def test_pictures_are_small_and_can_be_made(example, name, tmp_path):
     script = ROOT / "examples" / example
