@@ -530,27 +530,40 @@ def test_sensors_without_errors_change_nothing(at_rest):
     np.testing.assert_allclose(seen.dead_centres.t, plain.dead_centres.t, rtol=1e-9)
 
 
-def test_noise_delay_and_resolution_reach_the_controller(at_rest):
-    seen = []
+class Listening:
+    """Generates and remembers what it was shown."""
 
-    class Listening:
-        def act(self, signals):
-            seen.append(signals)
-            return generator(signals)
+    def __init__(self):
+        self.seen = []
 
-    engine = saleg.machines.thesis_transient()
-    sensors = Sensors(position_noise=1e-4, power_resolution=50.0, delay=2, seed=5)
-    first = control.simulate(engine, Listening(), 0.3, sensors=sensors)
-    count = len(seen)
-    second = control.simulate(engine, Listening(), 0.3, sensors=sensors)
-    assert seen[:count] == seen[count:]
-    assert len(first.strokes) == len(second.strokes)
-    true = first.dead_centres.stroke.to_numpy()
-    measured = np.array([signals.stroke for signals in seen[:count]])
-    assert 2e-5 < np.std(measured[3:-1] - true[: count - 4][: len(measured[3:-1])]) < 1e-3
-    assert all(signals.power % 50.0 == 0.0 for signals in seen)
-    with pytest.raises(InvalidController, match=r"delay(?s:.)*position_noise|position_noise"):
-        control.simulate(engine, Listening(), 0.1, sensors=Sensors(position_noise=-1.0, delay=-1))
+    def act(self, signals):
+        self.seen.append(signals)
+        return generator(signals)
+
+
+def test_noise_and_resolution_reach_the_controller(transient):
+    sensors = Sensors(position_noise=1e-4, power_resolution=50.0, seed=5)
+    first, second = Listening(), Listening()
+    run = control.simulate(transient, first, 1.0, sensors=sensors)
+    control.simulate(transient, second, 1.0, sensors=sensors)
+    assert first.seen == second.seen
+    measured = np.array([signals.stroke for signals in first.seen[1:]])
+    errors = measured - run.dead_centres.stroke.to_numpy()[: len(measured)]
+    assert np.std(errors) == pytest.approx(math.sqrt(2.0) * 1e-4, rel=0.3)  # of two positions
+    assert all(signals.power % 50.0 == 0.0 for signals in first.seen)
+    with pytest.raises(InvalidController, match=r"position_noise(?s:.)*delay"):
+        control.simulate(
+            transient, Listening(), 0.1, sensors=Sensors(position_noise=-1.0, delay=-1)
+        )
+
+
+def test_a_delay_counts_dead_centres(transient):
+    late = Listening()
+    run = control.simulate(transient, late, 0.3, sensors=Sensors(delay=2))
+    shown = [signals.stroke for signals in late.seen]
+    true = run.dead_centres.stroke.tolist()
+    np.testing.assert_allclose(shown[3:], true[: len(shown) - 3], rtol=1e-12)
+    assert np.ptp(true[:5]) > 1e-4  # they differ, so that the wrong one would show
 
 
 def test_between_dead_centres_there_is_nothing_new_to_measure(at_rest):

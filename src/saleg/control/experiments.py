@@ -6,9 +6,9 @@ Those that begin at rest bring the engine up by motored resonance first, as the 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     import pandas as pd
+
+Follower = TypeVar("Follower")
 
 #: Time a motored engine is given to settle [s]; its amplitude decays within about one second.
 SETTLING = 15.0
@@ -153,7 +155,7 @@ def start_up(
     search = chosen.motor_control
     if isinstance(search, ResonanceSearch):
         chosen = replace(chosen, motor_control=replace(search, base_frequency=base_frequency))
-    return simulate(engine.replace(start=AtRest()), chosen, duration, **settings)
+    return _from_rest(engine, chosen, duration, settings)
 
 
 def rapid_start(**parts: Any) -> Controller:
@@ -169,6 +171,26 @@ def rapid_start(**parts: Any) -> Controller:
     Controller
     """
     return Controller(**{"motor_control": ResonanceSearch(base_frequency=RAPID), **parts})
+
+
+def _from_rest(engine: Engine, controller: Controller, duration: float, settings: Any) -> Run:
+    """Run that begins at rest at the midpoint, whatever the engine's own start."""
+    return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
+
+
+def _on_map(
+    kind: Callable[..., Follower], known: OperatingMap, demand: Demand, gain: float
+) -> Follower:
+    """Law that follows a demand on a map."""
+    return kind(
+        gain=gain,
+        powers=known.powers,
+        compression_ratios=known.compression_ratios,
+        lowest=known.lowest,
+        highest=known.highest,
+        times=demand.times,
+        demands=demand.powers,
+    )
 
 
 def demand_by_load(
@@ -207,8 +229,7 @@ def demand_by_load(
         times=demand.times,
         demands=demand.powers,
     )
-    at_rest = engine.replace(start=AtRest())
-    return simulate(at_rest, rapid_start(load_control=law), duration, **settings)
+    return _from_rest(engine, rapid_start(load_control=law), duration, settings)
 
 
 def demand_by_intake(
@@ -244,18 +265,10 @@ def demand_by_intake(
     Run
     """
     known = known or operating_map(engine, "intake.temperature", INTAKE_TEMPERATURES)
-    law = HeatedIntake(
-        gain=gain,
-        powers=known.powers,
-        compression_ratios=known.compression_ratios,
-        lowest=known.lowest,
-        highest=known.highest,
-        times=demand.times,
-        demands=demand.powers,
-    )
+    law = _on_map(HeatedIntake, known, demand, gain)
     load = load_control or StrokeRegulator()
     controller = rapid_start(intake_control=law, load_control=load)
-    return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
+    return _from_rest(engine, controller, duration, settings)
 
 
 def demand_by_fuel(
@@ -288,17 +301,8 @@ def demand_by_fuel(
     Run
     """
     known = known or operating_map(engine, "equivalence_ratio", EQUIVALENCE_RATIOS)
-    law = FuelOnDemand(
-        gain=gain,
-        powers=known.powers,
-        compression_ratios=known.compression_ratios,
-        lowest=known.lowest,
-        highest=known.highest,
-        times=demand.times,
-        demands=demand.powers,
-    )
-    at_rest = engine.replace(start=AtRest())
-    return simulate(at_rest, rapid_start(fuel_control=law), duration, **settings)
+    law = _on_map(FuelOnDemand, known, demand, gain)
+    return _from_rest(engine, rapid_start(fuel_control=law), duration, settings)
 
 
 def fuel_cut(engine: Engine, *, at: float = 1.5, duration: float = 3.0, **settings: Any) -> Run:
@@ -322,7 +326,7 @@ def fuel_cut(engine: Engine, *, at: float = 1.5, duration: float = 3.0, **settin
         state_logic=CompressionThreshold(latched=1.0),
         fuel_control=FuelCut(at=at, strokes=FOR_EVER),
     )
-    return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
+    return _from_rest(engine, controller, duration, settings)
 
 
 def overload(
@@ -400,7 +404,7 @@ def misfire(
         state_logic=CompressionThreshold(latched=0.0 if motor else 1.0),
         fuel_control=FuelCut(at=at, strokes=float(strokes)),
     )
-    return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
+    return _from_rest(engine, controller, duration, settings)
 
 
 def recovery_time(run: Run, at: float) -> float:

@@ -24,6 +24,9 @@ from saleg.quantities import is_number
 from saleg.results import Run
 from saleg.simulate import Course, Replay, Settings, SettingsError, settings_of
 
+#: Strokes whose commands are remembered: the last full cycle is among them.
+LOGGED = 8
+
 
 class Plant:
     """An engine under commands, from dead centre to dead centre.
@@ -76,7 +79,6 @@ class Plant:
 
     def _begin(self, course: Course) -> None:
         self._course = course
-        self._parts = course.controller
         self._end = float(course.options["t_end"][0])
         self._code = layout.BUFFER_FULL
         self._commanded = False
@@ -139,7 +141,9 @@ class Plant:
         commands = Commands(*(float(value) for value in commands))
         give(self._course, commands, first=not self._commanded)
         self._commanded, self._latest = True, commands
-        self._log[int(self._course.state.engine["strokes"][0])] = commands
+        stroke = int(self._course.state.engine["strokes"][0])
+        self._log[stroke] = commands
+        self._log.pop(stroke - LOGGED, None)
 
     def advance(self, duration: float | None = None) -> None:
         """Go on to the next dead centre, or for some time.
@@ -201,7 +205,7 @@ class Plant:
         if plain is None or not self._at_dead_centres:
             return None
         return ReplayOfCommands(
-            plain.engine, plain.snapshot, plain.settings, self._parts, self._log
+            plain.engine, plain.snapshot, plain.settings, plain.controller, self._log
         )
 
 
