@@ -16,8 +16,8 @@ import numpy as np
 
 import saleg
 from saleg import Controller, control
+from saleg.engine.start import AtRest
 from saleg.laws import ResonanceSearch, SinusoidalMotor
-from saleg.start import AtRest
 
 RTOL = 1e-6
 DURATION = 2.5

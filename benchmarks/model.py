@@ -73,7 +73,7 @@ class Engine:
     """State, modes and masses; what happens at an event."""
 
     def __init__(self):
-        from saleg.prepare import prepare
+        from saleg.simulation.initial_state import prepare
 
         state = prepare(E)
         c, e = state.chambers, state.engine[0]

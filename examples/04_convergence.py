@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 import saleg
 from saleg import studies
 from saleg.plotting import new_figure
-from saleg.thesis_tables import TABLE_2
+from saleg.thesis.tables import TABLE_2
 
 
 def main(folder: Path) -> None:
@@ -38,7 +38,7 @@ def main(folder: Path) -> None:
     figure = new_figure(width=11.0, height=4.3)
     left, right = figure.subplots(1, 2)
     saleg.plotting.studies.work_precision(studies.work_precision(base, duration=0.5), left)
-    saleg.plotting.studies.delay(late, right)
+    saleg.plotting.studies.delay(late, right, printed=TABLE_2)
     figure.savefig(folder / "convergence.png", dpi=90)
 
 

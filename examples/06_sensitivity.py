@@ -12,7 +12,7 @@ import saleg
 from saleg import sensitivity
 from saleg.plotting import new_figure
 from saleg.plotting import sensitivity as figures
-from saleg.thesis_tables import TABLE_5
+from saleg.thesis.tables import TABLE_5
 
 
 def main(folder: Path) -> None:

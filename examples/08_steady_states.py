@@ -11,8 +11,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 import saleg
-from saleg.continuation import branch
 from saleg.plotting import new_figure
+from saleg.steady.continuation import branch
 
 
 def main(folder: Path) -> None:

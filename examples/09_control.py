@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 import saleg
 from saleg import control
 from saleg.control import Demand, generator, motor
-from saleg.start import AtRest
+from saleg.engine.start import AtRest
 
 
 class BangBang:

@@ -1,14 +1,26 @@
 """Shared by the tests: engines with a closed-form solution, and one cycle at given settings."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 
 from saleg import BounceChamber, Engine, Translator
+from saleg.engine.start import CompressedCharge
 from saleg.laws import ConstantGamma, LinearLoad, LinearSprings, ViscousFriction
-from saleg.prepare import prepare
-from saleg.simulate import Settings, integrate
-from saleg.start import CompressedCharge
+from saleg.simulation.initial_state import prepare
+from saleg.simulation.integration import Settings, integrate
+
+#: The project, and the tables of the dissertation.
+ROOT = Path(__file__).resolve().parent.parent
+TABLES = ROOT / "src" / "saleg" / "thesis" / "data"
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(language, text=README):
+    """Code blocks of a language in a page of Markdown."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE)
 
 
 def bounce_engine(

@@ -13,12 +13,12 @@ import pytest
 import saleg
 from saleg import InvalidEngine, LawError, UnknownPath
 from saleg.cli import main
+from saleg.compiler.compose import kernel_for, methods_text
+from saleg.engine.start import AtRest, MidpointVelocity
 from saleg.errors import StartError
-from saleg.kernel.compose import kernel_for, methods_text
 from saleg.laws import Friction, InstantExchange, LinearSprings, Springs
 from saleg.laws.base import ENGINE_SLOTS
-from saleg.simulate import SettingsError
-from saleg.start import AtRest, MidpointVelocity
+from saleg.simulation.integration import SettingsError
 
 
 def module(name, text, **names):

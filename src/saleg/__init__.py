@@ -4,11 +4,18 @@ An engine is a translator between two chambers, with laws in slots; a kernel int
 stops exactly at its events; results only read. All quantities are in SI units.
 """
 
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+
 from saleg import laws, machines
-from saleg.batches import simulate_many, steady_states
-from saleg.controller import Controller
+from saleg.batch.many import simulate_many, steady_states
 from saleg.engine import (
     BounceChamber,
+    Controller,
     Cylinder,
     Engine,
     Fuel,
@@ -17,11 +24,11 @@ from saleg.engine import (
     Translator,
 )
 from saleg.errors import EngineFileError, InvalidEngine, LawError, SalegError, UnknownPath
-from saleg.performance import EnergyBalance, Performance
-from saleg.results import Run
-from saleg.simulate import simulate
+from saleg.simulation.integration import simulate
+from saleg.simulation.performance import EnergyBalance, Performance
+from saleg.simulation.run import Run
 from saleg.status import Status
-from saleg.steady import SteadyState, steady_state
+from saleg.steady.solver import SteadyState, steady_state
 from saleg.version import __version__
 
 __all__ = [
@@ -65,13 +72,42 @@ LAZY = (
     "sensitivity",
     "studies",
     "sweep",
+    "thesis",
 )
+#: Short names that documentation has given to modules, and where these live. Some of them are
+#: names for good (``saleg.continuation``, ``saleg.sensitivity``, ``saleg.start``).
+ALIASES = {
+    "saleg.continuation": "saleg.steady.continuation",
+    "saleg.sensitivity": "saleg.studies.sensitivity",
+    "saleg.start": "saleg.engine.start",
+    "saleg.paths": "saleg.engine.paths",
+    "saleg.files": "saleg.engine.toml",
+    "saleg.performance": "saleg.simulation.performance",
+    "saleg.report": "saleg.simulation.report",
+    "saleg.thesis_tables": "saleg.thesis.tables",
+    "saleg.fundamental.plots": "saleg.plotting.fundamental",
+    "saleg.fundamental.figures": "saleg.thesis.chapter_2",
+}
+
+
+class _AliasFinder(MetaPathFinder, Loader):
+    """Imports a module under a name of :data:`ALIASES` as the module it stands for."""
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        return ModuleSpec(name, self) if name in ALIASES else None
+
+    def exec_module(self, module: ModuleType) -> None:
+        # The import system takes what it finds here afterwards in place of the empty module.
+        sys.modules[module.__name__] = import_module(ALIASES[module.__name__])
+
+
+sys.meta_path.append(_AliasFinder())
 
 
 def __getattr__(name: str) -> object:
     """Import the heavier parts on first use: ``saleg.plotting``, ``saleg.reference``..."""
-    if name in LAZY:
-        import importlib
-
-        return importlib.import_module(f"saleg.{name}")
+    if name in LAZY or f"saleg.{name}" in ALIASES:
+        return import_module(f"saleg.{name}")
     raise AttributeError(f"module 'saleg' has no attribute {name!r}")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.cli.run import CommandError, add_changes, changed, load
-from saleg.files import nearest
+from saleg.engine.toml import nearest
 from saleg.machines import CATALOGUE
 
 if TYPE_CHECKING:

@@ -17,8 +17,8 @@ from saleg.control.experiments import (
     SETTLING,
 )
 from saleg.engine import Engine
-from saleg.results import Run
-from saleg.steady import steady_state
+from saleg.simulation.run import Run
+from saleg.steady.solver import steady_state
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from saleg.export import csv_folder, formats, place
 from saleg.export.description import as_tables
-from saleg.performance import UNITS as PERFORMANCE_UNITS
+from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 
 if TYPE_CHECKING:
-    from saleg.results import Run
+    from saleg.simulation.run import Run
 
 __all__ = ["FILES", "FORMATS", "PERFORMANCE_UNITS", "new_folder", "write_run"]
 

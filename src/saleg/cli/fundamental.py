@@ -26,7 +26,7 @@ def add_to(commands: Any) -> None:
 
 def draw(options: argparse.Namespace) -> bool:
     """Draw the figure and say what it shows."""
-    from saleg.fundamental.figures import FIGURES
+    from saleg.thesis.chapter_2 import FIGURES
 
     target = options.out or Path(f"figure_{options.figure}.png")
     drawing = FIGURES[options.figure]

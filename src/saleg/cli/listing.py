@@ -6,7 +6,7 @@ import argparse
 import inspect
 from typing import Any
 
-from saleg.files import laws_by_slot
+from saleg.engine.toml import laws_by_slot
 from saleg.machines import CATALOGUE
 
 

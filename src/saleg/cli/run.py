@@ -8,12 +8,12 @@ from typing import Any
 
 from saleg.cli.folder import FORMATS, new_folder, write_run
 from saleg.engine import Engine
+from saleg.engine.toml import SLOTS, laws_by_slot, nearest, read_toml
 from saleg.errors import SalegError
 from saleg.export.formats import check
-from saleg.files import SLOTS, laws_by_slot, nearest, read_toml
 from saleg.machines import CATALOGUE
-from saleg.results import Run
-from saleg.simulate import simulate
+from saleg.simulation.integration import simulate
+from saleg.simulation.run import Run
 
 
 class CommandError(SalegError, ValueError):
@@ -143,8 +143,8 @@ def _settings(options: argparse.Namespace) -> dict[str, Any]:
 
 def report(result: Run) -> str:
     """Text on a run: status, message and figures, beside the thesis' where there are any."""
-    from saleg.report import describe_run
-    from saleg.thesis_tables import comparison
+    from saleg.simulation.report import describe_run
+    from saleg.thesis.tables import comparison
 
     table = comparison(result) if result.status.ended_well else None
     return describe_run(result) + (f"\n\n{table}" if table else "")

@@ -6,8 +6,8 @@ import argparse
 from typing import Any
 
 from saleg.cli.run import add_changes, changed, load
-from saleg.stability import describe
-from saleg.steady import DEFAULT_TOLERANCE, steady_state
+from saleg.steady.solver import DEFAULT_TOLERANCE, steady_state
+from saleg.steady.stability import describe
 
 
 def add_to(commands: Any) -> None:

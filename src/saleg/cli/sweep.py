@@ -7,7 +7,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from saleg.workers import WorkersError
+from saleg.batch.workers import WorkersError
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -15,19 +15,19 @@ import numpy as np
 from saleg.control.demand import Demand
 from saleg.control.maps import OperatingMap, operating_map
 from saleg.control.running import motor_returns, simulate, simulate_many
-from saleg.controller import Controller
 from saleg.engine import Engine
-from saleg.laws.controlling import LoadControl
-from saleg.laws.fuel_control import FuelCut, FuelOnDemand
-from saleg.laws.intake_control import HeatedIntake
-from saleg.laws.load_control import PowerDemand, ScaledLoad, StrokeRegulator
-from saleg.laws.motor_control import ResonanceSearch, SteadyMotor
-from saleg.laws.state_logic import AlwaysMotored, CompressionThreshold
+from saleg.engine.controller import Controller
+from saleg.engine.start import AtRest
+from saleg.laws.control.base import LoadControl
+from saleg.laws.control.fuel import FuelCut, FuelOnDemand
+from saleg.laws.control.intake import HeatedIntake
+from saleg.laws.control.load import PowerDemand, ScaledLoad, StrokeRegulator
+from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
+from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold
 from saleg.quantities import is_number
-from saleg.results import Run
-from saleg.simulate import SettingsError
-from saleg.start import AtRest
-from saleg.steady import steady_state
+from saleg.simulation.integration import SettingsError
+from saleg.simulation.run import Run
+from saleg.steady.solver import steady_state
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from saleg.batches import steady_states
+from saleg.batch.many import steady_states
 from saleg.engine import Engine
+from saleg.engine.paths import unit_of
 from saleg.errors import InvalidController
-from saleg.paths import unit_of
 from saleg.quantities import Problem
 from saleg.status import Status
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from saleg.kernel import layout
-from saleg.results import Run
+from saleg.simulation.run import Run
 
 #: Kinds of events after which a charge is a new one.
 NEW_CHARGE = (layout.EVENT_PORT_CLOSING, layout.EVENT_CHARGE_RENEWAL)

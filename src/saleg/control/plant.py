@@ -8,21 +8,21 @@ from typing import Any
 
 import numpy as np
 
+from saleg.compiler.compose import check_laws
 from saleg.control.verdict import blamed, fault_message, verdict_of
-from saleg.controller import Controller
 from saleg.engine import Engine
+from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
 from saleg.kernel import layout
-from saleg.kernel.compose import check_laws
 from saleg.kernel.control import obey, write_signals
 from saleg.kernel.decide import decide
-from saleg.laws.actuators import Actuators
 from saleg.laws.arguments import Commands, Signals
-from saleg.laws.controlling import ActuatorLaw
-from saleg.prepare import State, prepare
+from saleg.laws.control.actuators import Actuators
+from saleg.laws.control.base import ActuatorLaw
 from saleg.quantities import is_number
-from saleg.results import Run
-from saleg.simulate import Course, Replay, Settings, SettingsError, settings_of
+from saleg.simulation.initial_state import State, prepare
+from saleg.simulation.integration import Course, Replay, Settings, SettingsError, settings_of
+from saleg.simulation.run import Run
 
 #: Strokes whose commands are remembered: the last full cycle is among them.
 LOGGED = 8

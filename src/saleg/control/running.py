@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from saleg.batches import CHUNK, RUN_UNITS, Row, run_row, table_of
+from saleg.batch.many import CHUNK, RUN_UNITS, Row, run_row, table_of
+from saleg.compiler.compose import kernel_for
+from saleg.compiler.controllers import control_of
 from saleg.control.plant import InPython, Plant, course_of, give, measured
 from saleg.control.sensors import Measurement, Sensors
 from saleg.control.verdict import verdict_of
-from saleg.controller import Controller
 from saleg.engine import Engine
+from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
 from saleg.kernel import layout
-from saleg.kernel.compose import kernel_for
-from saleg.kernel.controllers import control_of
 from saleg.laws.arguments import Commands, Signals
-from saleg.laws.controlling import ActuatorLaw
+from saleg.laws.control.base import ActuatorLaw
 from saleg.quantities import is_number
-from saleg.results import Run
-from saleg.simulate import SettingsError
+from saleg.simulation.integration import SettingsError
+from saleg.simulation.run import Run
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -98,7 +98,7 @@ def simulate(
     Examples
     --------
     >>> import saleg
-    >>> engine = saleg.machines.thesis_transient().replace(start=saleg.start.AtRest())
+    >>> engine = saleg.machines.thesis_transient().replace(start=saleg.engine.start.AtRest())
     >>> run = saleg.control.simulate(engine, saleg.Controller(), 0.2)
     >>> bool(run.dead_centres.motoring.all())
     True

@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from saleg.controller import Controller
+from saleg.engine.controller import Controller
 from saleg.kernel import layout
 from saleg.kernel.control import write_signals
 from saleg.kernel.decide import with_motoring
 from saleg.laws.arguments import Commands, Signals
-from saleg.laws.controlling import CONTROL_SLOTS, StateLogic
-from saleg.simulate import Course
+from saleg.laws.control.base import CONTROL_SLOTS, StateLogic
+from saleg.simulation.integration import Course
+from saleg.simulation.outcome import PER_CYCLE, STEADY, change_per_cycle, verdict
 from saleg.status import Status
-from saleg.verdict import PER_CYCLE, STEADY, change_per_cycle, verdict
 
 #: Which part of a controller gives each command.
 PARTS = {

@@ -13,11 +13,11 @@ from saleg.design.formulas import port_clearance
 from saleg.design.masses import MassModel
 from saleg.design.parameters import Parameters
 from saleg.engine import Cylinder, Engine
+from saleg.engine.paths import exists, known_paths, unit_of, with_value
+from saleg.engine.paths import get as get_path
 from saleg.errors import UnknownPath, WrongFields
 from saleg.laws import BlairViscousFriction
 from saleg.machines import thesis_base
-from saleg.paths import exists, known_paths, unit_of, with_value
-from saleg.paths import get as get_path
 from saleg.quantities import Problem, is_number, problems
 
 MASSES = "masses"

@@ -21,14 +21,14 @@ from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 from saleg.design.results import DesignedState
 from saleg.engine import Engine, Translator
+from saleg.engine.start import CompressedCharge, Start
 from saleg.kernel import layout
 from saleg.kernel.orbit import read_vector, write_vector
-from saleg.prepare import State, prepare
 from saleg.quantities import Problem
-from saleg.return_map import ReturnMap, is_symmetric, repeats_itself
-from saleg.start import CompressedCharge, Start
+from saleg.simulation.initial_state import State, prepare
 from saleg.status import Status
-from saleg.steady import (
+from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
+from saleg.steady.solver import (
     DEFAULT_TOLERANCE,
     MOST_MAPS,
     RESIDUAL,

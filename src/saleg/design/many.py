@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING
 
-from saleg.batches import UNITS as STEADY_UNITS
-from saleg.batches import Row, steady_row
+from saleg.batch.many import UNITS as STEADY_UNITS
+from saleg.batch.many import Row, steady_row
 from saleg.design.designs import Design
 from saleg.design.loop import solve
 from saleg.design.results import UNITS as COMPONENT_UNITS

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from saleg.design.formulas import mean_speed
-from saleg.start import standard_charge
+from saleg.engine.start import standard_charge
 
 if TYPE_CHECKING:
     from saleg.engine import Engine

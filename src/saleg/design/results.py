@@ -12,9 +12,9 @@ from saleg.design.geometry import Geometry
 from saleg.design.masses import Masses
 from saleg.design.operation import Operation
 from saleg.fundamental.bridge import from_engine
-from saleg.performance import Performance
+from saleg.simulation.performance import Performance
 from saleg.status import Status
-from saleg.steady import SteadyState
+from saleg.steady.solver import SteadyState
 
 
 @dataclass(eq=False, kw_only=True)

@@ -12,14 +12,14 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 
 from saleg.engine import Engine
+from saleg.engine.start import Start
+from saleg.engine.toml import laws_by_slot
 from saleg.export.place import RunFileError
 from saleg.export.units import CODES, LAYOUTS
-from saleg.files import laws_by_slot
 from saleg.laws.base import Law
-from saleg.performance import UNITS as PERFORMANCE_UNITS
-from saleg.results import Run
-from saleg.start import Start
-from saleg.tables import CYCLE_UNITS
+from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
+from saleg.simulation.run import Run
+from saleg.simulation.tables import CYCLE_UNITS
 from saleg.version import __version__
 
 #: What the texts of a file say it is; the version grows when what is written changes its meaning.

@@ -14,7 +14,7 @@ from saleg.export.description import as_tables
 from saleg.export.extras import MissingExtra, extra
 from saleg.export.place import RunFileError, new_file, new_folder
 from saleg.export.restore import from_tables
-from saleg.results import Run
+from saleg.simulation.run import Run
 
 #: Format of a file by its suffix; a name without one is a folder of CSV tables.
 SUFFIXES: dict[str, ModuleType] = {

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from saleg.export import hdf5
 from saleg.export.description import Description, Table, as_tables
 from saleg.export.extras import extra
-from saleg.results import Run
+from saleg.simulation.run import Run
 
 if TYPE_CHECKING:
     import xarray

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from saleg.engine import Engine
+from saleg.engine.toml import read_toml
 from saleg.errors import SalegError
 from saleg.export.description import (
     FORMAT,
@@ -22,8 +23,7 @@ from saleg.export.description import (
 )
 from saleg.export.place import RunFileError
 from saleg.export.units import LAYOUTS
-from saleg.files import read_toml
-from saleg.results import Run
+from saleg.simulation.run import Run
 from saleg.status import Status
 
 

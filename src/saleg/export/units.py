@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from saleg.kernel import layout
-from saleg.tables import EVENT_UNITS, HISTORY_UNITS
+from saleg.simulation.tables import EVENT_UNITS, HISTORY_UNITS
 
 STROKE_UNITS = {
     "t": "s",

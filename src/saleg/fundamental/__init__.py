@@ -7,7 +7,7 @@ functions of their own: :func:`acceleration`, :func:`kinetic_energy`, :func:`equ
 :func:`from_engine` leads here from the numeric engine, :func:`to_engine` back to it, and
 :func:`verify` runs it beside the closed form.
 
-:mod:`saleg.fundamental.plots` draws; :mod:`saleg.fundamental.figures` has the thesis' figures.
+:mod:`saleg.plotting.fundamental` draws; :mod:`saleg.thesis.chapter_2` has the thesis' figures.
 
 Examples
 --------
@@ -26,9 +26,9 @@ from saleg.fundamental.energy import EnergyBalance, cycle_balance, stroke_balanc
 from saleg.fundamental.equilibrium import Equilibrium, Fold, equilibria, folds
 from saleg.fundamental.formulas import acceleration, kinetic_energy
 from saleg.fundamental.gas import Gas, Isentropic, Polytropic
+from saleg.fundamental.history import History, Outcome, Path, march, return_map
 from saleg.fundamental.ignition import AtDeadCentre, AtPressure, Ignition
 from saleg.fundamental.loads import ConstantLoad, CosineLoad, Load, OttoLoad, Profile
-from saleg.fundamental.march import History, Outcome, Path, march, return_map
 from saleg.fundamental.otto import (
     compression_ratio,
     cosine_amplitude,

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import singledispatch
 
 from saleg.engine import Engine, SealedCylinder, Translator
+from saleg.engine.start import CompressedCharge, charge_mass
 from saleg.errors import OutsideModel
 from saleg.fundamental.checks import LEFT, require
 from saleg.fundamental.gas import Gas, Isentropic, Polytropic
@@ -28,7 +29,6 @@ from saleg.laws import (
 from saleg.laws.base import Alternator, HeatTransfer
 from saleg.laws.base import Ignition as IgnitionLaw
 from saleg.quantities import Problem
-from saleg.start import CompressedCharge, charge_mass
 
 #: Scales of the thesis' base case (Table 1).
 BASE_CASE = Scales(half_stroke=0.1, bore=0.064, stiffness=30e3, mass=2.39)

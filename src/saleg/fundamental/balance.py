@@ -15,8 +15,8 @@ import numpy as np
 
 from saleg.errors import OutsideModel
 from saleg.fundamental.checks import DEPTH, LEFT, require
+from saleg.fundamental.history import from_depth
 from saleg.fundamental.loads import ConstantLoad
-from saleg.fundamental.march import from_depth
 from saleg.fundamental.system import System
 from saleg.quantities import Problem
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from saleg.engine import Chamber, CombustionChamber, Engine
+from saleg.engine.start import standard_charge
 from saleg.errors import InvalidEngine, OutsideModel
 from saleg.fundamental.balance import at_equilibrium
 from saleg.fundamental.gas import Isentropic
@@ -13,7 +14,6 @@ from saleg.fundamental.scales import Scales
 from saleg.fundamental.system import System
 from saleg.laws import Motion
 from saleg.quantities import Problem
-from saleg.start import standard_charge
 
 
 @dataclass(frozen=True)

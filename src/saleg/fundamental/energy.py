@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from saleg.fundamental.gas import expansion_work
-from saleg.fundamental.march import History
+from saleg.fundamental.history import History
 from saleg.fundamental.stroke import Stroke
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from saleg.fundamental.balance import TINY, gain, indicated_work, multiplier
+from saleg.fundamental.history import RUNAWAY_DEPTH, return_map
 from saleg.fundamental.loads import Load
-from saleg.fundamental.march import RUNAWAY_DEPTH, return_map
 from saleg.fundamental.numerics import bisect
 from saleg.fundamental.otto import compression_ratio
 from saleg.fundamental.system import System

@@ -12,7 +12,7 @@ from saleg.fundamental.gas import Gas, expansion_work
 from saleg.quantities import quantity
 
 if TYPE_CHECKING:
-    from saleg.fundamental.system import System
+    from saleg.fundamental.charge import Charge
 
 #: A charge that comes within this share of the threshold has reached it: at equilibrium under
 #: the Otto constraint it does so exactly at dead centre.
@@ -29,23 +29,23 @@ class Ignition:
         """Position at which the charge burns under way [-]; infinite if it does not."""
         return math.inf
 
-    def added_pressure(self, system: System, s: Any) -> Any:
+    def added_pressure(self, system: Charge, s: Any) -> Any:
         """Pressure the burnt charge has over the unburnt one under way [-]."""
         return 0.0
 
-    def added_work(self, system: System, s: Any) -> Any:
+    def added_work(self, system: Charge, s: Any) -> Any:
         """Work on the translator of that pressure, up to `s` [-]; negative."""
         return 0.0
 
-    def pressure_at_dead_centre(self, system: System, depth: Any) -> Any:
+    def pressure_at_dead_centre(self, system: Charge, depth: Any) -> Any:
         """Pressure of the charge as it begins to expand, `depth` from the midpoint [-]."""
         raise NotImplementedError
 
-    def fires(self, system: System, depth: Any) -> Any:
+    def fires(self, system: Charge, depth: Any) -> Any:
         """Whether a charge compressed up to `depth` burns."""
         raise NotImplementedError
 
-    def adverse_work(self, system: System, depth: float) -> float:
+    def adverse_work(self, system: Charge, depth: float) -> float:
         """Work of the inverted part of the p-V loop around dead centre [-]."""
         return 0.0
 
@@ -54,11 +54,11 @@ class Ignition:
 class AtDeadCentre(Ignition):
     """The charge burns at dead centre, wherever that is (2.3, Eq. 21)."""
 
-    def pressure_at_dead_centre(self, system: System, depth: Any) -> Any:
+    def pressure_at_dead_centre(self, system: Charge, depth: Any) -> Any:
         """Pressure of the charge as it begins to expand, `depth` from the midpoint [-]."""
         return system.motored_pressure(depth) + system.pressure_rise(depth)
 
-    def fires(self, system: System, depth: Any) -> Any:
+    def fires(self, system: Charge, depth: Any) -> Any:
         """Whether a charge compressed up to `depth` burns: always."""
         return np.ones(np.shape(depth), dtype=bool)
 
@@ -106,31 +106,31 @@ class AtPressure(Ignition):
         """Position at which the charge burns under way [-]."""
         return float(1.0 - self.ratio ** (-1.0 / gas.compression))
 
-    def added_pressure(self, system: System, s: Any) -> Any:
+    def added_pressure(self, system: Charge, s: Any) -> Any:
         """Pressure the burnt charge has over the unburnt one under way [-]."""
         where = self.position(system.gas)
         grown = ((1.0 - where) / (1.0 - s)) ** system.gas.compression
         return np.where(s >= where, system.pressure_rise(where) * grown, 0.0)
 
-    def added_work(self, system: System, s: Any) -> Any:
+    def added_work(self, system: Charge, s: Any) -> Any:
         """Work on the translator of that pressure, up to `s` [-]; negative."""
         where = self.position(system.gas)
         way = np.minimum(where - s, 0.0)
         rise = system.pressure_rise(where)
         return expansion_work(rise, 1.0 - where, way, system.gas.compression)
 
-    def pressure_at_dead_centre(self, system: System, depth: Any) -> Any:
+    def pressure_at_dead_centre(self, system: Charge, depth: Any) -> Any:
         """Pressure of the charge as it begins to expand, `depth` from the midpoint [-]."""
         where, motored = self.position(system.gas), system.motored_pressure(depth)
         grown = ((1.0 - where) / (1.0 - depth)) ** system.gas.compression
         burnt = system.pressure_rise(where) * grown
         return motored + np.where(self.fires(system, depth), burnt, 0.0)
 
-    def fires(self, system: System, depth: Any) -> Any:
+    def fires(self, system: Charge, depth: Any) -> Any:
         """Whether a charge compressed up to `depth` burns."""
         return (1.0 - np.real(depth)) ** -system.gas.compression >= self.ratio * (1.0 - REACHED)
 
-    def adverse_work(self, system: System, depth: float) -> float:
+    def adverse_work(self, system: Charge, depth: float) -> float:
         """Work of the inverted part of the p-V loop around dead centre [-].
 
         From the place of ignition to dead centre and back the burnt charge takes more work than

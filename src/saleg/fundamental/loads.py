@@ -12,17 +12,17 @@ from saleg.fundamental.otto import cosine_amplitude, otto_efficiency
 from saleg.quantities import Problem, quantity
 
 if TYPE_CHECKING:
-    from saleg.fundamental.system import System
+    from saleg.fundamental.charge import Charge
 
 
 class Load:
     """Base of all loads: what resists the motion in a stroke."""
 
-    def for_stroke(self, system: System, depth: Any) -> Profile:
+    def for_stroke(self, system: Charge, depth: Any) -> Profile:
         """Profile of the force in a stroke that begins `depth` [-] from the midpoint."""
         raise NotImplementedError
 
-    def balanced(self, system: System, depth: float, work: float) -> Load:
+    def balanced(self, system: Charge, depth: float, work: float) -> Load:
         """Load of the same kind that takes `work` [-] in a stroke from -`depth` to `depth`."""
         raise NotImplementedError
 
@@ -45,11 +45,11 @@ class Profile(Load):
         """Profile of this shape that takes `work` [-] between -`depth` and `depth`."""
         raise NotImplementedError
 
-    def for_stroke(self, system: System, depth: Any) -> Profile:
+    def for_stroke(self, system: Charge, depth: Any) -> Profile:
         """Profile of the force in a stroke: always this one."""
         return self
 
-    def balanced(self, system: System, depth: float, work: float) -> Profile:
+    def balanced(self, system: Charge, depth: float, work: float) -> Profile:
         """Load of the same shape that takes `work` [-] in a stroke from -`depth` to `depth`."""
         return self.with_work(work, depth)
 
@@ -143,12 +143,12 @@ class OttoLoad(Load):
     profile: Profile = field(default_factory=ConstantLoad)
     second_law: float = quantity("-", default=1.0, low=0)
 
-    def for_stroke(self, system: System, depth: Any) -> Profile:
+    def for_stroke(self, system: Charge, depth: Any) -> Profile:
         """Profile of the force in a stroke that begins `depth` [-] from the midpoint."""
         work = self.second_law * _otto_work(system, depth)
         return self.profile.with_work(work, depth)
 
-    def balanced(self, system: System, depth: float, work: float) -> OttoLoad:
+    def balanced(self, system: Charge, depth: float, work: float) -> OttoLoad:
         """Load with the second-law efficiency that takes `work` [-] between mirrored centres."""
         if system.heat == 0.0:
             allowed = "must be > 0 for a load tied to it"
@@ -156,5 +156,5 @@ class OttoLoad(Load):
         return replace(self, second_law=float(work / _otto_work(system, depth)))
 
 
-def _otto_work(system: System, depth: Any) -> Any:
+def _otto_work(system: Charge, depth: Any) -> Any:
     return system.heat * otto_efficiency(-depth, depth, gamma=system.gas.gamma)

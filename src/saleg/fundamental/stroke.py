@@ -18,7 +18,7 @@ from saleg.fundamental.numerics import AT_HEAD, first_root, half_line
 
 if TYPE_CHECKING:
     from saleg.fundamental.loads import Profile
-    from saleg.fundamental.system import System
+    from saleg.fundamental.parameters import Parameters
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Stroke:
     0.707106781187
     """
 
-    system: System
+    system: Parameters
     start: Any
     direction: float
     pressure: Any

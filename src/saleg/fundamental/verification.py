@@ -9,11 +9,11 @@ import numpy as np
 
 from saleg.fundamental.assumptions import BASE_CASE, to_engine
 from saleg.fundamental.energy import stroke_balance
-from saleg.fundamental.march import History, march
+from saleg.fundamental.history import History, march
 from saleg.fundamental.scales import Scales
 from saleg.fundamental.stroke import Stroke
 from saleg.fundamental.system import System
-from saleg.results import Run
+from saleg.simulation.run import Run
 
 #: Time for which the numeric engine runs on after the last stroke of the closed form, in
 #: sqrt(m/k): what it computes of one stroke more is not looked at.
@@ -177,7 +177,7 @@ def verify(
     >>> verification.strokes, verification.worst < 1e-8
     (4, True)
     """
-    from saleg.simulate import simulate
+    from saleg.simulation.integration import simulate
 
     engine = to_engine(system, start, scales=scales)
     history = march(system, start, strokes)

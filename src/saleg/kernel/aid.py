@@ -1,4 +1,4 @@
-"""What helps to evaluate a law: see :mod:`saleg.kernel.powers`, which makes use of it."""
+"""Logarithms and constants at hand as a law is evaluated: see the compiler's strength reduction."""
 
 from typing import NamedTuple
 

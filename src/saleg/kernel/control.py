@@ -1,6 +1,6 @@
 """What a controller is shown and what it sets at a dead centre.
 
-A controller is compiled by itself (see :mod:`saleg.kernel.controllers`), so that another one needs
+A controller is compiled by itself (:mod:`saleg.compiler.controllers`), so that another one needs
 no other kernel; `control` is the address of its function, its numbers, and scratch arrays for what
 it holds, is shown and commands.
 """

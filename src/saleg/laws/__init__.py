@@ -1,6 +1,5 @@
 """Laws that fill the slots of an engine and of a controller, one module per slot."""
 
-from saleg.laws.actuators import Actuators
 from saleg.laws.alternator import (
     CircuitAlternator,
     ConstantForce,
@@ -24,7 +23,8 @@ from saleg.laws.base import (
     Springs,
     Validity,
 )
-from saleg.laws.controlling import (
+from saleg.laws.control.actuators import Actuators
+from saleg.laws.control.base import (
     ActuatorLaw,
     FuelControl,
     IntakeControl,
@@ -32,6 +32,11 @@ from saleg.laws.controlling import (
     MotorControl,
     StateLogic,
 )
+from saleg.laws.control.fuel import FuelCut, FuelOnDemand, NoFuel, RatedFuel
+from saleg.laws.control.intake import HeatedIntake, RatedIntake
+from saleg.laws.control.load import PowerDemand, ScaledLoad, StrokeRegulator
+from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
+from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.friction import (
     BlairViscousFriction,
     ConstantFriction,
@@ -40,7 +45,6 @@ from saleg.laws.friction import (
     NoFriction,
     ViscousFriction,
 )
-from saleg.laws.fuel_control import FuelCut, FuelOnDemand, NoFuel, RatedFuel
 from saleg.laws.gas_exchange import InstantExchange
 from saleg.laws.gas_properties import ChangGas, ConstantGamma
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
@@ -62,12 +66,8 @@ from saleg.laws.ignition import (
     SparkAtClearance,
     TabulatedDelay,
 )
-from saleg.laws.intake_control import HeatedIntake, RatedIntake
-from saleg.laws.load_control import PowerDemand, ScaledLoad, StrokeRegulator
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
-from saleg.laws.motor_control import ResonanceSearch, SteadyMotor
 from saleg.laws.springs import EndStops, LinearSprings, PreloadedSprings, ProgressiveSprings
-from saleg.laws.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 
 __all__ = [
     "ActuatorLaw",

@@ -44,7 +44,7 @@ class Law:
         Those among them with a default that suits most laws.
     at_every_step : tuple of str
         Those among them, of gas and charge, whose formula the kernel eases
-        (:mod:`saleg.kernel.powers`).
+        (:mod:`saleg.compiler.strength_reduction`).
     valid_for : tuple of Validity
         Ranges the law was made for; a run says where it left them.
     mirrors : bool

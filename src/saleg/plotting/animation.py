@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from saleg.results import Run
+    from saleg.simulation.run import Run
 
 #: Limits of the number of frames, of the width [inch] and of the frames shown per second.
 FRAMES, WIDTHS, RATES = (2, 400), (4.0, 16.0), (1.0, 60.0)

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.performance import UNITS
 from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new, finish
+from saleg.simulation.performance import UNITS
 
 if TYPE_CHECKING:
-    from saleg.continuation import Branch
+    from saleg.steady.continuation import Branch
 
 UNSTABLE_COLOUR = "#CC3311"
 #: Factor from SI and unit people read, by SI unit.

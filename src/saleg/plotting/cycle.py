@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-    from saleg.results import Run
+    from saleg.simulation.run import Run
 
 #: Relative difference beyond which motored and actual pressure are two.
 SAME_PRESSURE = 1e-6

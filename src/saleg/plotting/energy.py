@@ -10,8 +10,8 @@ from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.performance import EnergyBalance
-    from saleg.results import Run
+    from saleg.simulation.performance import EnergyBalance
+    from saleg.simulation.run import Run
 
 #: Share of the fuel energy below which a flow is not drawn.
 VISIBLE = 1e-3

@@ -26,7 +26,7 @@ from saleg.plotting.translator import (
 )
 
 if TYPE_CHECKING:
-    from saleg.results import Run
+    from saleg.simulation.run import Run
 
 #: All figures of a run by name.
 FIGURES: dict[str, Callable[..., Any]] = {

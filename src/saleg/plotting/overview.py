@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-    from saleg.results import Run
+    from saleg.simulation.run import Run
 
 
 #: Least relative height of an axis of :func:`approach_to_steady_state`: what varies less is steady.

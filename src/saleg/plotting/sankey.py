@@ -12,8 +12,8 @@ from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.performance import EnergyBalance
-    from saleg.results import Run
+    from saleg.simulation.performance import EnergyBalance
+    from saleg.simulation.run import Run
 
 TRUNK_COLOUR = "#D9DDE3"
 #: Distance of neighbouring ends, in parts of the fuel energy.

@@ -1,4 +1,4 @@
-"""Figures of the studies of :mod:`saleg.sensitivity` (Figures 43 to 59 of the thesis).
+"""Figures of the studies of :mod:`saleg.studies.sensitivity` (Figures 43 to 59 of the thesis).
 
 Curves are drawn of a :class:`saleg.sensitivity.Study`, trends of its table. What is stable has full
 lines and the marker o; what is not, broken lines and the marker x, which lies on the axis itself
@@ -27,14 +27,14 @@ from saleg.plotting.cycle import (
 )
 from saleg.plotting.style import axes_or_new, finish, from_zero, new_figure, zero_lines
 from saleg.quantities import is_number
-from saleg.report import FIGURES
+from saleg.simulation.report import FIGURES
 from saleg.status import Status
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-    from saleg.sensitivity import Case, Study
+    from saleg.studies.sensitivity import Case, Study
 
 #: Label and factor from SI of what can be drawn of a table, by column.
 LABELS = {
@@ -407,7 +407,7 @@ def _around_dead_centre(study: Study, up: Quantity, ax: Axes | None) -> Axes:
 
 def _drawn(study: Study, ax: Axes) -> Iterator[tuple[dict[str, Any], Cycle]]:
     """How to draw which cycles; runs without one are named in the legend only."""
-    from saleg.sensitivity import is_stable
+    from saleg.studies.sensitivity import is_stable
 
     drawn = 0
     for case, colour in zip(study.cases, _colours(study), strict=True):

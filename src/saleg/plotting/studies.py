@@ -1,14 +1,15 @@
-"""Figures of the numerical studies of :mod:`saleg.studies`."""
+"""Figures of the numerical studies of :mod:`saleg.studies.convergence`."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from saleg.plotting.style import axes_or_new, finish
-from saleg.thesis_tables import TABLE_2, is_of_base_case
+from saleg.studies.convergence import is_of_base_case
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,10 +44,12 @@ def work_precision(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
     return finish(ax, "Work and precision", "best")
 
 
-def delay(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
+def delay(
+    table: pd.DataFrame,
+    ax: Axes | None = None,
+    printed: Mapping[float, Mapping[str, float]] | None = None,
+) -> Axes:
     """Draw efficiency [%] over step [µs] for several delays of the gas force.
-
-    For the base case of the thesis, and for it alone, with the rows of its Table 2.
 
     Parameters
     ----------
@@ -54,6 +57,9 @@ def delay(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
         From :func:`saleg.studies.delay_study`.
     ax : matplotlib.axes.Axes, optional
         Axes to draw on; new ones unless given.
+    printed : mapping of float to mapping, optional
+        Published rows by step [s], drawn as rings, such as ``saleg.thesis.tables.TABLE_2``. A
+        study of any other engine than the base case it is printed for stays without them.
 
     Returns
     -------
@@ -70,16 +76,16 @@ def delay(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
         label = {"0": "no delay", "1": "1 step late"}.get(f"{steps:g}", f"{steps:g} steps late")
         look: dict[str, Any] = {"color": tuple(colour), "marker": marker, "ms": 4, "lw": 1.2}
         ax.plot(1e6 * rows["step"], 100.0 * rows["efficiency"], label=label, **look)
-    if is_of_base_case(table):
-        _draw_table_2(ax, float(ran["step"].max()))
+    if printed is not None and is_of_base_case(table):
+        _draw_printed(ax, printed, float(ran["step"].max()))
     ax.set_xlabel("fixed step [µs]")
     ax.set_ylabel("efficiency [%]")
     return finish(ax, "Cylinder blocks that lag behind", "best")
 
 
-def _draw_table_2(ax: Axes, longest: float) -> None:
-    """Rings where Table 2 of the thesis has steps no longer than the longest that ran [s]."""
-    printed = [(step, row) for step, row in TABLE_2.items() if step <= longest * 1.001]
+def _draw_printed(ax: Axes, rows: Mapping[float, Mapping[str, float]], longest: float) -> None:
+    """Rings where the thesis has steps no longer than the longest that ran [s]."""
+    printed = [(step, row) for step, row in rows.items() if step <= longest * 1.001]
     ax.plot(
         [1e6 * step for step, _ in printed],
         [100.0 * row["efficiency"] for _, row in printed],

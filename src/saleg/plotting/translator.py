@@ -35,7 +35,7 @@ from saleg.plotting.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.results import Run
+    from saleg.simulation.run import Run
 
 
 @figure_of_cycle

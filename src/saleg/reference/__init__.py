@@ -11,11 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from saleg.compiler.compose import needs_motored_pressure
 from saleg.engine import Engine
 from saleg.kernel import layout
-from saleg.kernel.compose import needs_motored_pressure
 from saleg.kernel.plain_rhs import VELOCITY
-from saleg.prepare import State
 from saleg.reference.books import RunningEngine
 from saleg.reference.segments import (
     Solver,
@@ -27,8 +26,9 @@ from saleg.reference.segments import (
     plain_rates,
     scales,
 )
-from saleg.results import Run
-from saleg.verdict import verdict
+from saleg.simulation.initial_state import State
+from saleg.simulation.outcome import verdict
+from saleg.simulation.run import Run
 
 __all__ = ["simulate"]
 

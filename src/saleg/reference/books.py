@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from saleg.engine import Chamber, CombustionChamber, Cylinder, Engine, SealedCylinder
+from saleg.engine.start import Contents, Initial
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import (
     INTEGRAL,
@@ -25,8 +26,7 @@ from saleg.kernel.plain_rhs import (
     rates,
 )
 from saleg.laws.arguments import Gas, Motion, Stroke
-from saleg.prepare import rated_side
-from saleg.start import Contents, Initial
+from saleg.simulation.initial_state import rated_side
 
 #: Distance from a port at which it counts as reached, over the half stroke [-].
 SLACK = 1e-13

@@ -22,8 +22,8 @@ from saleg.kernel.plain_rhs import (
     rates,
 )
 from saleg.laws.arguments import Motion
-from saleg.prepare import current_scale
 from saleg.reference.books import ChamberState, EngineState, RunningEngine
+from saleg.simulation.initial_state import current_scale
 
 Rates = Callable[[float, np.ndarray], np.ndarray]
 
@@ -86,7 +86,7 @@ def plain_rates(engine: Engine) -> Callable[[RunningEngine], Rates]:
 
 def jitted_rates(engine: Engine) -> Callable[[RunningEngine], Rates]:
     """Compile the same right-hand side, with the laws of the engine put in."""
-    from saleg.kernel.compose import kernel_for, parameters
+    from saleg.compiler.compose import kernel_for, parameters
 
     kernel, P = kernel_for(engine, ("plain_rhs",)), parameters(engine)
 

@@ -10,9 +10,9 @@ True
 'W/kg'
 """
 
-from saleg.sweep.indices import Indices, NoIndices, indices, saltelli_points
 from saleg.sweep.points import SweepError, grid, latin_hypercube, listed, sobol
 from saleg.sweep.runs import load, run
+from saleg.sweep.sobol import Indices, NoIndices, indices, saltelli_points
 from saleg.sweep.subjects import DesignSubject, EngineSubject, Subject
 
 __all__ = [

@@ -32,7 +32,7 @@ import numpy as np
 
 from saleg.design.designs import Design
 from saleg.engine import Engine
-from saleg.files import nearest, parsed
+from saleg.engine.toml import nearest, parsed
 from saleg.machines import CATALOGUE
 from saleg.quantities import is_number
 from saleg.sweep.points import SweepError, grid, latin_hypercube, listed, refuse_too_many, sobol

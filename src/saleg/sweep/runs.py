@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.batches import Columns, kind_of, missing, progress_bar, rows_of
+from saleg.batch.many import Columns, kind_of, missing, progress_bar, rows_of
+from saleg.batch.workers import check_workers, completed
 from saleg.design.designs import Design
 from saleg.engine import Engine
 from saleg.quantities import is_number
-from saleg.steady import DEFAULT_TOLERANCE, check_tolerance
+from saleg.steady.solver import DEFAULT_TOLERANCE, check_tolerance
 from saleg.sweep.points import SweepError
 from saleg.sweep.store import Folder
 from saleg.sweep.subjects import Subject, Values, subject_of
 from saleg.version import __version__
-from saleg.workers import check_workers, completed
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.batches import Columns, kind_of
-from saleg.kernel.cache import locked
+from saleg.batch.many import Columns, kind_of
+from saleg.compiler.cache import locked
 from saleg.sweep.points import SweepError
 
 if TYPE_CHECKING:

@@ -7,16 +7,16 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any, Protocol
 
-from saleg.batches import UNITS as STEADY_UNITS
-from saleg.batches import Row, steady_row
+from saleg.batch.many import UNITS as STEADY_UNITS
+from saleg.batch.many import Row, steady_row
 from saleg.design.designs import Design
 from saleg.design.many import UNITS as DESIGN_UNITS
 from saleg.design.many import Follower
 from saleg.engine import Engine
+from saleg.engine.paths import unit_of
 from saleg.errors import UnknownPath
-from saleg.paths import unit_of
 from saleg.quantities import is_number
-from saleg.steady import steady_state
+from saleg.steady.solver import steady_state
 from saleg.sweep.identity import described, own_code
 from saleg.sweep.points import SweepError
 

@@ -26,7 +26,7 @@ from saleg.plotting.sweeps import label, values
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.results import Run
+    from saleg.simulation.run import Run
 
 #: What is commanded, and holds from one dead centre to the next; all else is measured there.
 COMMANDS = ("motor_frequency", "load_weight", "equivalence_ratio", "intake_temperature")

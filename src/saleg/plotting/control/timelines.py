@@ -30,7 +30,7 @@ from saleg.plotting.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.results import Run
+    from saleg.simulation.run import Run
 
 #: Relative change below which a command counts as constant.
 CONSTANT = 1e-3

@@ -1,0 +1,1 @@
+"""One engine, or many, for many rows: workers, chunks, and columns with units in order."""

@@ -1,0 +1,1 @@
+"""From an engine's laws and the kernel's modules to compiled code."""

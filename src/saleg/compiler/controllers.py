@@ -1,0 +1,161 @@
+"""Controllers compiled by themselves: the kernel asks them through a pointer.
+
+So a new controller costs a second to compile, not a new kernel. The text of its module is composed
+like that of a kernel and kept beside it.
+"""
+
+from __future__ import annotations
+
+import types
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.compiler.cache import locked, usable_folder, write_atomically
+from saleg.compiler.compose import (
+    digest,
+    execute,
+    is_ours,
+    lengths_of,
+    methods_text,
+    names_of,
+    numbers_of,
+    own_text,
+)
+from saleg.compiler.source import NoSource, fingerprint
+from saleg.errors import LawError
+from saleg.kernel import jit, layout
+from saleg.laws.arguments import Commands, Signals
+from saleg.laws.control.base import CONTROL_SLOTS
+
+if TYPE_CHECKING:
+    from saleg.compiler.compose import Lengths
+    from saleg.engine.controller import Controller
+    from saleg.laws import Law
+
+#: What the kernel is handed: address of a function, numbers, and room for what it holds, is shown
+#: and commands.
+Control = tuple[int, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+
+ENTRY = """\
+_pointer = numba.types.CPointer(numba.types.float64)
+
+
+@numba.cfunc(
+    numba.types.void(_pointer, _pointer, _pointer, _pointer), error_model="numpy", cache={cache}
+)
+def entry(numbers_at, held_at, signals_at, commands_at):
+{body}
+"""
+
+
+def control_of(controller: Controller) -> Control:
+    """What the kernel needs of a controller made of laws.
+
+    Raises
+    ------
+    LawError
+        If a part cannot be compiled, naming it.
+    """
+    laws = [getattr(controller, name) for name in CONTROL_SLOTS]
+    classes = tuple(type(law) for law in laws)
+    state = tuple(fingerprint(law) for law in dict.fromkeys(classes) if not is_ours(law))
+    known: Any = classes
+    entry = _load(known, tuple(lengths_of(law) for law in laws), state)
+    return _with_room(int(entry.address), np.array(numbers_of(laws), np.float64))
+
+
+def nobody() -> Control:
+    """What the kernel is handed where nobody commands: it never calls it."""
+    return _with_room(0, np.zeros(1))
+
+
+def _with_room(address: int, numbers: np.ndarray) -> Control:
+    held = np.zeros(layout.CONTROL_PARTS * layout.HELD)
+    return address, numbers, held, np.zeros(len(Signals._fields)), np.zeros(len(Commands._fields))
+
+
+@lru_cache(maxsize=128)
+def _load(
+    classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], state: tuple[object, ...]
+) -> Any:
+    """Compiled function of a choice of law classes in a certain state."""
+    names = ", ".join(law.__name__ for law in dict.fromkeys(classes) if not is_ours(law))
+    try:
+        text = _text(classes, lengths)
+    except NoSource:
+        raise LawError(
+            f"the source of {names} cannot be had here: write it to a file or a notebook, or run "
+            "the controller with compiled=False"
+        ) from None
+    from numba.core.errors import NumbaError
+
+    try:
+        return _import(text)
+    except NumbaError as error:
+        raise LawError(f"the laws {names} cannot be compiled: {error}") from error
+
+
+def _import(text: str) -> Any:
+    """Run a module's text from the cache folder, or from memory if there is none."""
+    folder = usable_folder()
+    if folder is None:
+        return _entry(text.replace("{cache}", "False"), "<saleg controller>")
+    text = text.replace("{cache}", "True")
+    path = folder / f"saleg_controller_{digest(text)}.py"
+    with locked(path.with_suffix(".lock")):
+        if not path.is_file() or path.read_bytes() != text.encode():
+            write_atomically(path, text)
+        return _entry(text, str(path))
+
+
+def _entry(text: str, filename: str) -> Any:
+    module: types.ModuleType = execute(text, filename)
+    return module.entry
+
+
+def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...]) -> str:
+    """Text of a controller's module."""
+    parts = ["import math", "from collections import namedtuple", "import numba"]
+    parts += ["import numpy as np", jit.COMPILED_HEADER, own_text("laws/arguments.py")]
+    places, first = [], 0
+    for (slot, base), law, long in zip(CONTROL_SLOTS.items(), classes, lengths, strict=True):
+        (method,) = base.compiled
+        parts += methods_text(law, method, f"control_{slot}", base)
+        parts.append(
+            f"@inline\ndef {slot}_{method}(P, held, signals):\n"
+            f"    return control_{slot}_{method}(P.{slot}, held, signals)\n"
+        )
+        kind: Any = law
+        names = names_of(kind)
+        values, first = _values(names, dict(long), first)
+        parts.append(f"{slot}_numbers = namedtuple('{slot}_numbers', {list(names)})")
+        places.append(f"{slot}_numbers({', '.join(values)})")
+    parts.append(f"all_numbers = namedtuple('all_numbers', {list(CONTROL_SLOTS)})")
+    parts.append(own_text("kernel/decide.py"))
+    return "\n".join([*parts, ENTRY.replace("{body}", _body(places, first))]) + "\n"
+
+
+def _values(names: tuple[str, ...], long: dict[str, int], first: int) -> tuple[list[str], int]:
+    """Expressions for the numbers of a law within the array of all, and where the next begin."""
+    values = []
+    for name in names:
+        count = long.get(name)
+        values.append(f"p[{first}]" if count is None else f"p[{first}:{first + count}]")
+        first += 1 if count is None else count
+    return values, first if names else first + 1
+
+
+def _body(places: list[str], count: int) -> str:
+    """Lines of the compiled function: numbers into named tuples, commands into their array."""
+    signals = ", ".join(f"s[{n}]" for n in range(len(Signals._fields)))
+    lines = [
+        f"p = numba.carray(numbers_at, ({count},))",
+        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.HELD}))",
+        f"s = numba.carray(signals_at, ({len(Signals._fields)},))",
+        f"c = numba.carray(commands_at, ({len(Commands._fields)},))",
+        f"wanted = decide(all_numbers({', '.join(places)}), h, Signals({signals}))",
+        *(f"c[{n}] = wanted.{name}" for n, name in enumerate(Commands._fields)),
+    ]
+    return "\n".join(f"    {line}" for line in lines)

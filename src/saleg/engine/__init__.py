@@ -1,0 +1,29 @@
+"""Engines as trees of frozen dataclasses, with paths, starts, controllers and TOML files."""
+
+from saleg.engine.chambers import (
+    BounceChamber,
+    Chamber,
+    CombustionChamber,
+    Cylinder,
+    Filling,
+    Fuel,
+    Intake,
+    SealedCylinder,
+    Translator,
+)
+from saleg.engine.controller import Controller
+from saleg.engine.engine import Engine
+
+__all__ = [
+    "BounceChamber",
+    "Chamber",
+    "CombustionChamber",
+    "Controller",
+    "Cylinder",
+    "Engine",
+    "Filling",
+    "Fuel",
+    "Intake",
+    "SealedCylinder",
+    "Translator",
+]

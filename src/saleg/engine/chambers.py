@@ -1,0 +1,221 @@
+"""Parts of an engine: translator, intake, fuel, and the chambers with the laws in their slots."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from saleg.laws import (
+    CFRIgnition,
+    ChangGas,
+    Hohenberg,
+    InstantExchange,
+    NoHeatTransfer,
+    NoMisfires,
+    Wiebe,
+)
+from saleg.laws.base import (
+    GasExchange,
+    GasProperties,
+    HeatRelease,
+    HeatTransfer,
+    Ignition,
+    Misfires,
+)
+from saleg.quantities import quantity
+
+
+@dataclass(frozen=True)
+class Translator:
+    """The moving part: pistons, rod, alternator mover and the springs' share.
+
+    Parameters
+    ----------
+    mass : float
+        Total moving mass [kg].
+    """
+
+    mass: float = quantity("kg", low=0, open_low=True)
+
+
+@dataclass(frozen=True)
+class Intake:
+    """State of the intake manifold.
+
+    Parameters
+    ----------
+    pressure : float
+        Intake pressure [Pa].
+    temperature : float
+        Intake temperature [K].
+    """
+
+    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True)
+    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0)
+
+
+@dataclass(frozen=True)
+class Fuel:
+    """Fuel; the defaults stand for methane (3.4).
+
+    Parameters
+    ----------
+    lower_heating_value : float
+        Lower heating value [J/kg].
+    air_fuel_ratio : float
+        Stoichiometric air-fuel ratio by mass [-].
+    """
+
+    lower_heating_value: float = quantity("J/kg", default=48e6, low=0, open_low=True)
+    air_fuel_ratio: float = quantity("-", default=17.5, low=0, open_low=True)
+
+
+class Filling(NamedTuple):
+    """State in which the charge of a chamber is known: at port closing, or at the midpoint.
+
+    Attributes
+    ----------
+    pressure, temperature : float
+        [Pa], [K].
+    clearance : float
+        Distance between crown and head there [m].
+    """
+
+    pressure: float
+    temperature: float
+    clearance: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chamber:
+    """What all chambers have in common.
+
+    Parameters
+    ----------
+    bore : float
+        Bore b [m].
+    half_stroke : float
+        Neutral clearance length L [m]: crown to head when the translator is at its midpoint.
+    wall_temperature : float
+        Temperature of head, liner and crown [K].
+    head_gap : float
+        Clearance at which the run ends with head contact [m].
+    """
+
+    bore: float = quantity("m", low=0, open_low=True)
+    half_stroke: float = quantity("m", low=0, open_low=True)
+    wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0)
+    head_gap: float = quantity("m", default=1e-4, low=0, open_low=True)
+
+    @property
+    def area(self) -> float:
+        """Area of the bore [m^2]."""
+        return math.pi * self.bore**2 / 4.0
+
+    @property
+    def filling(self) -> Filling:
+        """State in which its charge is known."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, kw_only=True)
+class CombustionChamber(Chamber):
+    """What all chambers that burn fuel have in common.
+
+    Parameters
+    ----------
+    equivalence_ratio : float
+        Equivalence ratio of the charge, phi [-]; 0 cuts the fuel.
+    combustion_efficiency : float
+        Share of the fuel that can burn, eta_comb [-].
+    late_ignition : float
+        1 if a charge that has not lit by its dead centre may still light itself later, while it is
+        trapped; 0 if it may not [-].
+    fuel : Fuel
+    gas_properties, heat_transfer, heat_release, ignition, gas_exchange, misfires : Law
+        The laws in the chamber's slots.
+    """
+
+    equivalence_ratio: float = quantity("-", default=0.6, low=0, high=10)
+    combustion_efficiency: float = quantity("-", default=0.95, low=0, high=1)
+    late_ignition: float = quantity("-", default=0.0, low=0, high=1)
+    fuel: Fuel = field(default_factory=Fuel)
+    gas_properties: GasProperties = field(default_factory=ChangGas)
+    heat_transfer: HeatTransfer = field(default_factory=Hohenberg)
+    heat_release: HeatRelease = field(default_factory=Wiebe)
+    ignition: Ignition = field(default_factory=CFRIgnition)
+    gas_exchange: GasExchange = field(default_factory=InstantExchange)
+    misfires: Misfires = field(default_factory=NoMisfires)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cylinder(CombustionChamber):
+    """A ported two-stroke combustion cylinder.
+
+    Parameters
+    ----------
+    port_closing : float
+        Clearance between crown and head at which the ports close, d_po [m].
+    intake : Intake
+    """
+
+    port_closing: float = quantity("m", low=0, open_low=True)
+    intake: Intake = field(default_factory=Intake)
+
+    @property
+    def filling(self) -> Filling:
+        """State of the fresh charge as the ports close."""
+        return Filling(self.intake.pressure, self.intake.temperature, self.port_closing)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SealedCylinder(CombustionChamber):
+    """A combustion chamber without ports, as Chapter 2 has it (2.3).
+
+    At its bottom dead centre its charge is replaced by a fresh one of the same mass, wherever that
+    is: heat is rejected in an instant, down to the curve ``p V^n`` through the midpoint state.
+
+    Parameters
+    ----------
+    pressure : float
+        Pressure of a fresh charge with the translator at its midpoint, P_mp [Pa].
+    temperature : float
+        Temperature there [K].
+    curve_exponent : float
+        Exponent n of the curve fresh charges lie on [-]; the ratio of specific heats in 2.3.
+    """
+
+    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True)
+    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0)
+    curve_exponent: float = quantity("-", default=1.4, low=1, open_low=True)
+
+    @property
+    def filling(self) -> Filling:
+        """State of a fresh charge at the midpoint."""
+        return Filling(self.pressure, self.temperature, self.half_stroke)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BounceChamber(Chamber):
+    """A closed gas spring.
+
+    Parameters
+    ----------
+    pressure : float
+        Pressure with the translator at its midpoint [Pa].
+    temperature : float
+        Temperature there [K].
+    gas_properties, heat_transfer : Law
+        The laws in the chamber's slots.
+    """
+
+    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True)
+    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0)
+    gas_properties: GasProperties = field(default_factory=ChangGas)
+    heat_transfer: HeatTransfer = field(default_factory=NoHeatTransfer)
+
+    @property
+    def filling(self) -> Filling:
+        """State at the midpoint."""
+        return Filling(self.pressure, self.temperature, self.half_stroke)

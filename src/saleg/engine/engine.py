@@ -1,0 +1,227 @@
+"""The engine: a translator between two chambers, with laws in slots.
+
+Everything is a frozen dataclass of numbers in SI units; nothing here computes. See
+:mod:`saleg.engine.paths` for reading and changing an engine by dotted paths.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+from saleg.engine import paths
+from saleg.engine.chambers import Chamber, CombustionChamber, Fuel, Intake, Translator
+from saleg.engine.start import CompressedCharge, Start
+from saleg.errors import InvalidEngine
+from saleg.laws import Law, LinearLoad, LinearSprings, ViscousFriction
+from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
+from saleg.quantities import Problem, is_number, problems
+
+
+@dataclass(frozen=True)
+class Engine:
+    """A free-piston engine: a translator between a left and a right chamber.
+
+    Build a symmetric engine with :meth:`mirrored`; the position x is zero at the midpoint and
+    positive to the right.
+
+    Parameters
+    ----------
+    translator : Translator
+    left, right : Cylinder, SealedCylinder or BounceChamber
+    springs, friction, alternator : Law
+        The laws in the engine's slots.
+    start : Start
+        How a run begins.
+    name : str
+        What people call it.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> engine = saleg.machines.thesis_base()
+    >>> engine.get("bore"), engine.is_mirrored
+    (0.064, True)
+    >>> engine.replace(bore=0.060).get("left.bore")
+    0.06
+    """
+
+    translator: Translator
+    left: Chamber
+    right: Chamber
+    springs: Springs = field(default_factory=LinearSprings)
+    friction: Friction = field(default_factory=ViscousFriction)
+    alternator: Alternator = field(default_factory=LinearLoad)
+    start: Start = field(default_factory=CompressedCharge)
+    name: str = "engine"
+
+    @classmethod
+    def mirrored(cls, translator: Translator, chamber: Chamber, **slots: Any) -> Engine:
+        """Build an engine whose right chamber is the mirror image of its left one.
+
+        Parameters
+        ----------
+        translator : Translator
+        chamber : Cylinder, SealedCylinder or BounceChamber
+            Used on both sides.
+        **slots
+            Further fields of :class:`Engine`.
+
+        Returns
+        -------
+        Engine
+        """
+        return cls(translator=translator, left=chamber, right=chamber, **slots)
+
+    @property
+    def is_mirrored(self) -> bool:
+        """Whether both chambers are alike."""
+        return self.left == self.right
+
+    @property
+    def chambers(self) -> tuple[Chamber, Chamber]:
+        """Left and right chamber."""
+        return self.left, self.right
+
+    @property
+    def fires(self) -> bool:
+        """Whether at least one chamber burns fuel."""
+        return any(isinstance(chamber, CombustionChamber) for chamber in self.chambers)
+
+    @property
+    def maximum_stroke(self) -> float:
+        """Greatest geometrically possible stroke [m]."""
+        return self.left.half_stroke + self.right.half_stroke
+
+    def get(self, path: str) -> Any:
+        """Value at a dotted path, such as ``"intake.pressure"`` (SI).
+
+        Raises
+        ------
+        UnknownPath
+            With the nearest existing names.
+        """
+        return paths.get(self, path)
+
+    def replace(self, **changes: Any) -> Engine:
+        """Copy of the engine with some values, laws or parts replaced.
+
+        Parameters
+        ----------
+        **changes
+            New values (SI) by dotted path; paths with dots are passed as
+            ``**{"intake.temperature": 300.0}``. A path of a cylinder changes both sides unless
+            ``left.`` or ``right.`` stands before it.
+
+        Returns
+        -------
+        Engine
+            Not validated: see :meth:`validate`.
+
+        Raises
+        ------
+        UnknownPath
+            With the nearest existing names.
+        """
+        return paths.replace(self, changes)
+
+    def problems(self) -> list[Problem]:
+        """Every wrong field of the engine; empty when it is valid."""
+        found = _slot_problems(self)
+        if found:
+            return found
+        for part in ("translator", "springs", "friction", "alternator", "start"):
+            found += problems(getattr(self, part), part)
+        if self.is_mirrored:
+            found += problems(self.left)
+        else:
+            found += problems(self.left, "left") + problems(self.right, "right")
+        return found + _geometry_problems(self)
+
+    def validate(self) -> None:
+        """Raise one error naming every wrong field.
+
+        Raises
+        ------
+        InvalidEngine
+            Its ``problems`` give field, value, unit and allowed range.
+        """
+        found = self.problems()
+        if found:
+            raise InvalidEngine(found)
+
+    def to_toml(self) -> str:
+        """The engine as TOML text that :meth:`from_toml` reads back exactly."""
+        from saleg.engine.toml import to_toml
+
+        return to_toml(self)
+
+    @classmethod
+    def from_toml(cls, path: str | Path, laws: Sequence[type[Law]] = ()) -> Engine:
+        """Read an engine file.
+
+        Parameters
+        ----------
+        path : str or Path
+            A TOML file as :meth:`to_toml` writes it.
+        laws : sequence of Law classes, optional
+            Laws of your own that the file may name.
+
+        Returns
+        -------
+        Engine
+
+        Raises
+        ------
+        EngineFileError
+            Naming file and key.
+        InvalidEngine
+            Naming every value out of range.
+        """
+        from saleg.engine.toml import read_toml
+
+        return read_toml(path, laws)
+
+
+_CHAMBER_PARTS: dict[str, type] = {**CHAMBER_SLOTS, "intake": Intake, "fuel": Fuel}
+
+
+def _slot_problems(engine: Engine) -> list[Problem]:
+    """Parts and laws that are not of the kind their place asks for."""
+    found = []
+    for name, kind in (("translator", Translator), ("start", Start), *ENGINE_SLOTS.items()):
+        found += _kind_problem(getattr(engine, name), kind, name)
+    for side, chamber in zip(("left", "right"), engine.chambers, strict=True):
+        found += _kind_problem(chamber, Chamber, side)
+        for item in fields(chamber) if isinstance(chamber, Chamber) else ():
+            if item.name in _CHAMBER_PARTS:
+                part, kind = getattr(chamber, item.name), _CHAMBER_PARTS[item.name]
+                found += _kind_problem(part, kind, f"{side}.{item.name}")
+    return found
+
+
+def _kind_problem(value: Any, kind: type, path: str) -> list[Problem]:
+    if isinstance(value, kind):
+        return []
+    return [Problem(path, value, "-", f"must be a {kind.__name__}")]
+
+
+def _geometry_problems(engine: Engine) -> list[Problem]:
+    """Lengths that contradict each other."""
+    found = []
+    lengths = [chamber.half_stroke for chamber in engine.chambers]
+    if not all(is_number(length) for length in lengths):
+        return []
+    most = sum(float(length) for length in lengths)
+    sides = ("",) if engine.is_mirrored else ("left.", "right.")
+    for side, chamber in zip(sides, engine.chambers, strict=False):
+        gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
+        if is_number(gap) and gap >= chamber.half_stroke:
+            allowed = f"must be < half_stroke ({chamber.half_stroke:g} m)"
+            found.append(Problem(side + "head_gap", gap, "m", allowed))
+        if is_number(port) and is_number(gap) and not gap < port < most:
+            allowed = f"must be > head_gap ({gap:g} m) and < the maximum stroke ({most:g} m)"
+            found.append(Problem(side + "port_closing", port, "m", allowed))
+    return found

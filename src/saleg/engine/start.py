@@ -1,0 +1,245 @@
+"""How a run begins.
+
+A start is a law too, though one that runs once, in Python: given an engine it says where the
+translator is, how fast, and what stands in each chamber.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from saleg.engine.chambers import Chamber
+from saleg.laws.arguments import Motion
+from saleg.quantities import quantity
+
+#: Exponent with which a start guesses the state of a charge compressed from port closing.
+COMPRESSION_EXPONENT = 1.35
+
+
+class Contents(NamedTuple):
+    """What a chamber holds at the start.
+
+    Attributes
+    ----------
+    is_open : bool
+        Whether its ports are open.
+    burning : bool
+        Whether heat release begins now.
+    armed : bool
+        Whether its charge may ignite in this stroke.
+    pressure : float
+        Pressure [Pa].
+    mass, fuel, air, burnt : float
+        Masses [kg].
+    """
+
+    is_open: bool
+    burning: bool
+    armed: bool
+    pressure: float
+    mass: float
+    fuel: float
+    air: float
+    burnt: float
+
+
+class Initial(NamedTuple):
+    """State of an engine at the start.
+
+    Attributes
+    ----------
+    x, v : float
+        Position [m] and velocity [m/s].
+    at_dead_centre : bool
+        Whether the start counts as a dead centre, so that the first stroke is a whole one.
+    stroke : float
+        Guess of the stroke just passed [m].
+    mean_piston_speed : float
+        Guess of its mean piston speed [m/s].
+    left, right : Contents
+    """
+
+    x: float
+    v: float
+    at_dead_centre: bool
+    stroke: float
+    mean_piston_speed: float
+    left: Contents
+    right: Contents
+
+
+class Start:
+    """Base of all starts.
+
+    ``engine`` is a :class:`saleg.Engine` throughout; it holds a start, so its type is not named.
+    """
+
+    def initial(self, engine: Any) -> Initial:
+        """State of the engine at time zero."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class CompressedCharge(Start):
+    """At rest near a head, with a compressed charge there, burning or not.
+
+    The charge stands at ``p_in (d_po/d)^1.35``. If the chamber at that end burns no fuel but the
+    other one does, the mirror image is meant. A sealed cylinder has its own exponent.
+
+    Parameters
+    ----------
+    position : float
+        Position as a share of the half stroke, negative on the left [-].
+    burning : float
+        1 to light the charge at time zero, 0 to leave it unlit.
+    """
+
+    position: float = quantity("-", default=-0.9, low=-1, high=1, open_low=True, open_high=True)
+    burning: float = quantity("-", default=1.0, low=0, high=1)
+
+    def initial(self, engine: Any) -> Initial:
+        """State of the engine at time zero."""
+        side = 0 if self.position < 0.0 else 1
+        if _burns_fuel(engine.chambers[1 - side]) and not _burns_fuel(engine.chambers[side]):
+            side = 1 - side
+        charged = engine.chambers[side]
+        length = charged.half_stroke
+        depth = min(abs(self.position) * length, length - min(2.0 * charged.head_gap, 0.5 * length))
+        x = depth if side == 1 else -depth
+        lit = bool(self.burning) and _burns_fuel(charged)
+        held = (
+            contents(engine.left, x, burning=lit and side == 0),
+            contents(engine.right, -x, burning=lit and side == 1),
+        )
+        energy = _stored_energy(engine, charged, x, held[side], lit)
+        speed = 0.75 * math.sqrt(2.0 * energy / engine.translator.mass)
+        return Initial(x, 0.0, True, 2.0 * depth, speed, *held)
+
+
+@dataclass(frozen=True)
+class MidpointVelocity(Start):
+    """Passing the midpoint, both charges where compression would have them.
+
+    The velocity is ``factor pi f S``, that of a harmonic motion times a factor.
+
+    Parameters
+    ----------
+    frequency : float
+        Frequency f the engine is expected to run at [Hz].
+    stroke : float
+        Stroke S as a share of the maximum stroke [-].
+    factor : float
+        Peak velocity over that of a harmonic motion, negative to the left [-].
+    """
+
+    frequency: float = quantity("Hz", default=45.0, low=0, open_low=True)
+    stroke: float = quantity("-", default=0.9, low=0, high=1, open_low=True)
+    factor: float = quantity("-", default=1.15)
+
+    def initial(self, engine: Any) -> Initial:
+        """State of the engine at time zero."""
+        stroke = self.stroke * engine.maximum_stroke
+        v = self.factor * math.pi * self.frequency * stroke
+        left, right = contents(engine.left, 0.0), contents(engine.right, 0.0)
+        left = left._replace(armed=left.armed and v < 0.0)
+        right = right._replace(armed=right.armed and v > 0.0)
+        return Initial(0.0, v, False, stroke, 2.0 * stroke * self.frequency, left, right)
+
+
+@dataclass(frozen=True)
+class AtRest(Start):
+    """At rest at the midpoint, both cylinders closed and filled at the intake's state (Ch. 5).
+
+    There is no fuel in them: nothing is metered before the ports have opened once.
+    """
+
+    def initial(self, engine: Any) -> Initial:
+        """State of the engine at time zero."""
+        return Initial(0.0, 0.0, True, 0.0, 0.0, _resting(engine.left), _resting(engine.right))
+
+
+def contents(chamber: Any, displacement: float, burning: bool = False) -> Contents:
+    """What a chamber holds with its piston `displacement` [m] from the midpoint, outward."""
+    height = chamber.half_stroke + displacement
+    full = chamber.filling
+    squeeze = full.clearance / height
+    if not _burns_fuel(chamber):
+        pressure = full.pressure * adiabatic_rise(chamber, squeeze)
+        return Contents(False, False, False, pressure, charge_mass(chamber), 0.0, 0.0, 0.0)
+    mass, fuel, air, burnt = standard_charge(chamber)
+    is_open = _has_ports(chamber) and squeeze <= 1.0
+    exponent = COMPRESSION_EXPONENT if _has_ports(chamber) else chamber.curve_exponent
+    pressure = full.pressure * (1.0 if is_open else squeeze**exponent)
+    lit = burning and not is_open
+    return Contents(is_open, lit, not is_open and not lit, pressure, mass, fuel, air, burnt)
+
+
+def adiabatic_rise(chamber: Any, squeeze: float) -> float:
+    """Pressure over that at the midpoint of a gas compressed adiabatically `squeeze` times.
+
+    ``d ln T / d ln V = 1 - gamma(T)`` by the classical Runge-Kutta method, so that the charge of a
+    sealed chamber does not depend on where a run begins.
+    """
+    gamma = chamber.gas_properties.gamma
+    filled = chamber.filling.temperature
+    ln_T, steps = math.log(filled), 64
+    h = math.log(squeeze) / steps
+    for _ in range(steps):
+        k1 = gamma(math.exp(ln_T)) - 1.0
+        k2 = gamma(math.exp(ln_T + 0.5 * h * k1)) - 1.0
+        k3 = gamma(math.exp(ln_T + 0.5 * h * k2)) - 1.0
+        k4 = gamma(math.exp(ln_T + h * k3)) - 1.0
+        ln_T += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    return float(squeeze * math.exp(ln_T) / filled)
+
+
+def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
+    """Mass, fuel, air and burnt gas [kg] of the charge of a cylinder that runs steadily."""
+    mass = charge_mass(cylinder)
+    ratio, phi = cylinder.fuel.air_fuel_ratio, cylinder.equivalence_ratio
+    if phi <= 0.0:
+        return mass, 0.0, mass, 0.0
+    egr = getattr(cylinder.gas_exchange, "egr", 0.0)
+    burning = cylinder.combustion_efficiency * cylinder.heat_release.burnt_fraction(1.0)
+    burnt_per_fuel = (1.0 + ratio) * burning * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
+    fuel = mass / (1.0 + ratio / phi + burnt_per_fuel)
+    return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
+
+
+def charge_mass(chamber: Any) -> float:
+    """Mass of the charge [kg]; of a ported cylinder ``p_in A d_po / (R T_in)``."""
+    full, area = chamber.filling, math.pi * chamber.bore**2 / 4.0
+    density = full.pressure / (chamber.gas_properties.gas_constant * full.temperature)
+    return float(density * area * full.clearance)
+
+
+def _resting(chamber: Any) -> Contents:
+    """A closed chamber, filled at the state its charge is known in, without fuel."""
+    if not _burns_fuel(chamber):
+        return contents(chamber, 0.0)
+    full = chamber.filling
+    mass = charge_mass(chamber) * chamber.half_stroke / full.clearance
+    return Contents(False, False, False, full.pressure, mass, 0.0, mass, 0.0)
+
+
+def _stored_energy(engine: Any, charged: Chamber, x: float, held: Contents, lit: bool) -> float:
+    """Energy about to drive the translator [J], for a guess of its speed."""
+    springs = engine.springs.energy(Motion(0.0, x, 0.0, 0.0))
+    springs -= engine.springs.energy(Motion(0.0, 0.0, 0.0, 0.0))
+    height = charged.half_stroke - abs(x)
+    volume = math.pi * charged.bore**2 / 4.0 * height
+    full = charged.filling.clearance
+    n = COMPRESSION_EXPONENT - 1.0
+    gas = held.pressure * volume / n * max(1.0 - (height / full) ** n, 0.0)
+    heat = held.fuel * charged.fuel.lower_heating_value if lit else 0.0  # type: ignore[attr-defined]
+    return max(springs + gas + 0.4 * heat, 1e-12)
+
+
+def _burns_fuel(chamber: Any) -> bool:
+    return hasattr(chamber, "ignition")
+
+
+def _has_ports(chamber: Any) -> bool:
+    return hasattr(chamber, "port_closing")

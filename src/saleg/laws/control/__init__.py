@@ -1,0 +1,1 @@
+"""Laws of a controller, one module per slot."""

@@ -1,0 +1,97 @@
+"""Limits, lags and losses between a controller and the engine."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from saleg.laws.arguments import Commands
+from saleg.laws.control.base import ActuatorLaw
+from saleg.quantities import quantity
+
+
+@dataclass(frozen=True, kw_only=True)
+class Actuators(ActuatorLaw):
+    """Limits of every command, and first-order lags between a command and what it sets.
+
+    A command beyond its limits ends the run: a controller has to know them. Lags act from command
+    to command: there what was set has moved by ``1 - exp(-elapsed / lag)`` of its way to what was
+    asked for last, and stays until the next. The first command of a run is in place at once.
+
+    Parameters
+    ----------
+    most_load, most_force, most_frequency, most_fuel : float
+        Largest load weight [-], amplitude [N] and frequency [Hz] of the motor, equivalence
+        ratio [-]; the least is zero.
+    most_sweep : float
+        Fastest change of the frequency, up or down [Hz/s].
+    coldest, hottest : float
+        Limits of the intake temperature [K].
+    load_lag, force_lag, fuel_lag, intake_lag : float
+        Time constants of load weight, amplitude of the motor, equivalence ratio and intake
+        temperature [s]; 0 follows at once.
+    motor_efficiency : float
+        Of the conversion as a motor, either way [-].
+    """
+
+    most_load: float = quantity("-", default=10.0, low=0)
+    most_force: float = quantity("N", default=1e5, low=0)
+    most_frequency: float = quantity("Hz", default=1e3, low=0)
+    most_sweep: float = quantity("Hz/s", default=1e5, low=0)
+    most_fuel: float = quantity("-", default=5.0, low=0)
+    coldest: float = quantity("K", default=150.0, low=1.0)
+    hottest: float = quantity("K", default=1000.0, low=1.0)
+    load_lag: float = quantity("s", default=0.0, low=0)
+    force_lag: float = quantity("s", default=0.0, low=0)
+    fuel_lag: float = quantity("s", default=0.0, low=0)
+    intake_lag: float = quantity("s", default=0.0, low=0)
+    motor_efficiency: float = quantity("-", default=0.95, low=0, high=1, open_low=True)
+
+    def refused(self, wanted: Commands) -> float:
+        """Number of the first command out of its limits or not finite, from 1 on; 0 if none is."""
+        if not (wanted.motoring == 0.0 or wanted.motoring == 1.0):
+            return 1.0
+        if not 0.0 <= wanted.load_weight <= self.most_load:
+            return 2.0
+        if not 0.0 <= wanted.amplitude <= self.most_force:
+            return 3.0
+        if not 0.0 <= wanted.frequency <= self.most_frequency:
+            return 4.0
+        if not abs(wanted.sweep) <= self.most_sweep:
+            return 5.0
+        if not (wanted.sets_phase == 0.0 or wanted.sets_phase == 1.0):
+            return 6.0
+        if not math.isfinite(wanted.phase):
+            return 7.0
+        if not 0.0 <= wanted.equivalence_ratio <= self.most_fuel:
+            return 8.0
+        if not self.coldest <= wanted.intake_temperature <= self.hottest:
+            return 9.0
+        return 0.0
+
+    def follow(self, actual: Commands, wanted: Commands, elapsed: float) -> Commands:
+        """Where the actuators stand `elapsed` seconds after they stood at `actual`."""
+        return Commands(
+            wanted.motoring,
+            lagging(actual.load_weight, wanted.load_weight, elapsed, self.load_lag),
+            lagging(actual.amplitude, wanted.amplitude, elapsed, self.force_lag),
+            wanted.frequency,
+            wanted.sweep,
+            wanted.sets_phase,
+            wanted.phase,
+            lagging(actual.equivalence_ratio, wanted.equivalence_ratio, elapsed, self.fuel_lag),
+            lagging(actual.intake_temperature, wanted.intake_temperature, elapsed, self.intake_lag),
+        )
+
+    def motor_power(self, mechanical: float) -> float:
+        """Electrical power delivered [W] for a mechanical power taken from the translator [W]."""
+        if mechanical >= 0.0:
+            return self.motor_efficiency * mechanical
+        return mechanical / self.motor_efficiency
+
+
+def lagging(actual: float, wanted: float, elapsed: float, lag: float) -> float:
+    """First-order lag: where a quantity stands after some time on its way [units of `actual`]."""
+    if lag <= 0.0:
+        return wanted
+    return wanted + (actual - wanted) * math.exp(-elapsed / lag)

@@ -1,0 +1,7 @@
+"""One run of an engine: from its start to results that only read."""
+
+from saleg.simulation.integration import simulate
+from saleg.simulation.performance import EnergyBalance, Performance
+from saleg.simulation.run import Run
+
+__all__ = ["EnergyBalance", "Performance", "Run", "simulate"]

@@ -1,0 +1,212 @@
+"""From an engine to the numbers a run begins with."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.compiler.compose import check_laws
+from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
+from saleg.engine.start import Contents
+from saleg.errors import StartError
+from saleg.kernel import layout
+from saleg.kernel.rhs import refresh, rhs
+from saleg.kernel.switch import ignite
+from saleg.laws.arguments import Motion, Stroke
+
+if TYPE_CHECKING:
+    from saleg.engine import Chamber, Engine
+
+
+@dataclass
+class State:
+    """Everything that changes during a run.
+
+    Attributes
+    ----------
+    engine, chambers : ndarray
+        Records of :mod:`saleg.kernel.layout`, shapes (1,) and (2,).
+    y : ndarray, shape (N_ALL,)
+        State vector and quadratures.
+    peaks : ndarray, shape (N_PEAKS,)
+        Greatest values of the present stroke.
+    """
+
+    engine: Any
+    chambers: Any
+    y: np.ndarray
+    peaks: np.ndarray
+
+    @property
+    def time(self) -> float:
+        """Time reached [s]."""
+        return float(self.engine["t"][0])
+
+    @property
+    def records(self) -> tuple[Any, Any]:
+        """Records of engine and chambers as the kernel's plain functions read and write them."""
+        return self.engine.view(np.recarray)[0], self.chambers.view(np.recarray)
+
+    def copy(self) -> State:
+        """Another state of the same numbers, peaks forgotten."""
+        parts = (self.engine.copy(), self.chambers.copy(), self.y.copy())
+        return State(*parts, np.zeros(layout.N_PEAKS))
+
+
+def prepare(engine: Engine) -> State:
+    """State of an engine at the beginning of a run, as its start law has it.
+
+    Raises
+    ------
+    LawError
+        If a law cannot become part of a kernel.
+    StartError
+        If a law overflows or divides by zero there.
+    """
+    check_laws(engine)
+    try:
+        return _prepare(engine)
+    except (ArithmeticError, ValueError) as error:
+        raise StartError(
+            f"a law cannot be evaluated at the start ({error}): check its parameters, or begin "
+            "with another start"
+        ) from error
+
+
+def _prepare(engine: Engine) -> State:
+    """Fill plain objects, let the kernel's own functions work on them, and pack them at last."""
+    start = engine.start.initial(engine)
+    E = SimpleNamespace(**dict.fromkeys(layout.ENGINE_RECORD.names or (), 0.0))
+    C = [SimpleNamespace(**dict.fromkeys(layout.CHAMBER_RECORD.names or (), 0.0)) for _ in "lr"]
+    y = [0.0] * layout.N_ALL
+    y[layout.X], y[layout.V] = start.x, start.v
+    for side, held in enumerate((start.left, start.right)):
+        _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
+        _fill_contents(C[side], held, y, side)
+    _fill_engine(E, engine, start, C)
+    refresh(engine, E, C, y)
+    for side, held in enumerate((start.left, start.right)):
+        if held.burning:
+            ignite(engine, E, C, side, y, 0)
+    dy = [0.0] * layout.N_ALL
+    rhs(engine, E, C, 0.0, y, dy, 0)
+    E.direction = sign(y[layout.V]) or sign(dy[layout.V])
+    return State(
+        np.array([tuple(vars(E).values())], layout.ENGINE_RECORD),
+        np.array([tuple(vars(c).values()) for c in C], layout.CHAMBER_RECORD),
+        np.array(y),
+        np.zeros(layout.N_PEAKS),
+    )
+
+
+def sign(value: float) -> float:
+    """-1, 0 or 1 [-]."""
+    return math.copysign(1.0, value) if value != 0.0 else 0.0
+
+
+def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
+    length = 0.5 * engine.maximum_stroke
+    E.mass = engine.translator.mass
+    E.length_scale = length
+    E.speed_scale = length * math.sqrt(_stiffness(engine, length) / E.mass)
+    E.maximum_stroke = engine.maximum_stroke
+    E.stroke = start.stroke
+    E.mean_piston_speed = start.mean_piston_speed
+    E.x_dead_centre = start.x if start.at_dead_centre else math.nan
+    E.next_step = 1e-3 * length / E.speed_scale
+    E.ln_last_error = -9.21
+    moving = start.mean_piston_speed > 0.0
+    guess = Stroke(
+        length=start.stroke,
+        duration=start.stroke / start.mean_piston_speed if moving else math.inf,
+        maximum=engine.maximum_stroke,
+        half_maximum=length,
+        piston_area=0.5 * (C[0].area + C[1].area),
+        fuel_energy=0.0,
+        speed_squared=0.0,
+    )
+    E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
+    E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
+    E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
+    E.regulated_weight = E.load_weight
+    _rate(E, C)
+
+
+def _rate(E: Any, C: Any) -> None:
+    """Note fuel and intake temperature the engine is built with: those of its first fired side."""
+    first = C[rated_side([c.equivalence_ratio_wanted for c in C])]
+    E.rated_equivalence_ratio = E.equivalence_ratio = first.equivalence_ratio_wanted
+    E.rated_intake_temperature = E.intake_temperature = first.intake_temperature
+    rated = E.rated_equivalence_ratio
+    for c in C:
+        c.beside_rated_temperature = c.intake_temperature - E.rated_intake_temperature
+        c.over_rated_fuel = c.equivalence_ratio_wanted / rated if rated > 0.0 else 1.0
+
+
+def rated_side(ratios: Sequence[float]) -> int:
+    """Side whose fuel and intake are the engine's rated ones: the first with any fuel, else 0."""
+    return next((side for side, ratio in enumerate(ratios) if ratio > 0.0), 0)
+
+
+def current_scale(engine: Engine, load_weight: float, speed: float) -> float:
+    """Current at which the alternator balances at some speed [m/s], in A; 1 if it has none."""
+    weight = max(load_weight, 1.0)
+    idle, loaded = (
+        engine.alternator.current_rate(weight, Motion(0.0, 0.0, speed, 1.0, current))
+        for current in (0.0, 1.0)
+    )
+    return abs(idle / (idle - loaded)) if idle != 0.0 and idle != loaded else 1.0
+
+
+def _stiffness(engine: Engine, length: float) -> float:
+    """Stiffness around the midpoint [N/m], springs and gas, for scales only."""
+    dx = 0.01 * length
+    ahead, behind = (engine.springs.force(Motion(0.0, x, 0.0, 0.0)) for x in (dx, -dx))
+    total = max(-(ahead - behind) / (2.0 * dx), 0.0)
+    for chamber in engine.chambers:
+        area = math.pi * chamber.bore**2 / 4.0
+        total += 1.35 * chamber.filling.pressure * area / chamber.half_stroke
+    return float(total)
+
+
+def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
+    c.sign = sign
+    c.bore = chamber.bore
+    c.area = math.pi * chamber.bore**2 / 4.0
+    c.half_stroke = chamber.half_stroke
+    c.wall_temperature = chamber.wall_temperature
+    c.head_gap = chamber.head_gap
+    c.gas_constant = chamber.gas_properties.gas_constant  # type: ignore[attr-defined]
+    c.ignition_time = -1.0
+    full = chamber.filling
+    c.p_closing = c.intake_pressure = full.pressure
+    c.T_closing = c.intake_temperature = full.temperature
+    c.V_closing = c.area * full.clearance
+    c.port = full.clearance if isinstance(chamber, Cylinder) else math.inf
+    c.air_fuel_ratio = 1.0
+    if isinstance(chamber, SealedCylinder):
+        c.curve_exponent = chamber.curve_exponent
+    if isinstance(chamber, CombustionChamber):
+        c.equivalence_ratio_wanted = chamber.equivalence_ratio
+        c.lower_heating_value = chamber.fuel.lower_heating_value
+        c.air_fuel_ratio = chamber.fuel.air_fuel_ratio
+        c.combustion_efficiency = chamber.combustion_efficiency
+        c.late_ignition = chamber.late_ignition
+
+
+def _fill_contents(c: Any, held: Contents, y: list[float], side: int) -> None:
+    c.mode = layout.OPEN if held.is_open else layout.CLOSED
+    c.armed = layout.ARMED if held.armed and held.fuel > 0.0 else layout.DISARMED
+    c.mass, c.fuel, c.air, c.burnt = held.mass, held.fuel, held.air, held.burnt
+    c.equivalence_ratio = held.fuel * c.air_fuel_ratio / max(held.air, 1e-300)
+    height = c.half_stroke + c.sign * y[layout.X]
+    if c.curve_exponent > 0.0:  # its charge is closed where it stands
+        c.p_closing, c.V_closing = held.pressure, c.area * height
+        c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
+    theta = math.log(held.pressure) + layout.G0 * math.log(height / c.half_stroke)
+    y[layout.THETA + side] = y[layout.MOTORED + side] = theta

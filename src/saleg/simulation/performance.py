@@ -1,0 +1,280 @@
+"""Figures of one cycle: performance and energy balance."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from saleg.engine import CombustionChamber, Engine
+from saleg.simulation.indicators import (
+    adverse_work,
+    cycle_compression_ratios,
+    repeatability,
+    timing,
+)
+
+nan = math.nan
+
+
+#: Units of the figures of Performance.
+UNITS = {
+    "stroke": "m",
+    "compression_ratio": "-",
+    "frequency": "Hz",
+    "power": "W",
+    "rms_power": "W",
+    "efficiency": "-",
+    "mean_alternator_force": "N",
+    "peak_pressure": "Pa",
+    "peak_acceleration": "m/s^2",
+    "peak_velocity": "m/s",
+    "fuel_energy_per_cycle": "J",
+    "charge_mass": "kg",
+    "moving_mass": "kg",
+    "peak_temperature": "K",
+    "peak_pressure_rise": "Pa/s",
+    "indicated_work": "J",
+    "indicated_efficiency": "-",
+    "adverse_work": "J",
+    "start_of_combustion": "s",
+    "start_of_combustion_position": "m",
+    "burn_centre": "s",
+    "stability": "-",
+    "cr_change": "-",
+}
+
+
+@dataclass(frozen=True)
+class Performance:
+    """Performance over one full cycle, left dead centre to left dead centre; SI.
+
+    NaN stands for what is not defined: efficiencies without fresh fuel, timings without a start of
+    combustion, the change of the compression ratio over a single cycle.
+
+    Attributes
+    ----------
+    stroke : float
+        Stroke [m].
+    compression_ratio : float
+        Geometric compression ratio of the cylinders, ``(L + S/2) / (L - S/2)`` when the orbit is
+        symmetric [-].
+    frequency : float
+        Cycles per second [Hz].
+    power, rms_power : float
+        Mean and root-mean-square electrical power [W].
+    efficiency : float
+        Mean electrical power over the power of the fresh fuel [-].
+    mean_alternator_force : float
+        Time mean of the magnitude of the alternator force [N].
+    peak_pressure : float
+        Greatest pressure in either chamber [Pa].
+    peak_acceleration, peak_velocity : float
+        Greatest magnitudes [m/s^2, m/s].
+    fuel_energy_per_cycle : float
+        Lower heating value of the fresh fuel of both cylinders [J].
+    charge_mass : float
+        Mass of the charge of one cylinder [kg].
+    moving_mass : float
+        Mass of the translator [kg].
+    peak_temperature : float
+        Greatest temperature in either chamber [K].
+    peak_pressure_rise : float
+        Greatest rate of pressure rise in either chamber [Pa/s].
+    indicated_work : float
+        Work of the gas on both pistons, open ports included [J].
+    indicated_efficiency : float
+        Indicated work over the energy of the fresh fuel [-].
+    adverse_work : float
+        Work lost in the inverted part of the p-V loops around dead centre [J]; NaN where the
+        history of the cycle is not known.
+    start_of_combustion : float
+        Time of the start of combustion before dead centre [s].
+    start_of_combustion_position : float
+        Distance of the piston from its dead centre at that moment [m].
+    burn_centre : float
+        Time after dead centre at which half of the heat is released [s].
+    stability : float
+        Change of the left dead centre over the cycle, in half strokes [-] (Eq. 68).
+    cr_change : float
+        Mean magnitude of the change of the compression ratio from cycle to cycle, over the last
+        ten changes [-].
+    """
+
+    stroke: float
+    compression_ratio: float
+    frequency: float
+    power: float
+    rms_power: float
+    efficiency: float
+    mean_alternator_force: float
+    peak_pressure: float
+    peak_acceleration: float
+    peak_velocity: float
+    fuel_energy_per_cycle: float
+    charge_mass: float
+    moving_mass: float
+    peak_temperature: float
+    peak_pressure_rise: float
+    indicated_work: float
+    indicated_efficiency: float
+    adverse_work: float
+    start_of_combustion: float
+    start_of_combustion_position: float
+    burn_centre: float
+    stability: float
+    cr_change: float
+
+    def to_dict(self) -> dict[str, float]:
+        """All figures by name."""
+        return dataclasses.asdict(self)
+
+    @classmethod
+    def of_nothing(cls, engine: Engine) -> Performance:
+        """Performance of an engine that completed no cycle or stalled: zeros and NaN."""
+        values = {item.name: nan for item in dataclasses.fields(cls)}
+        for name in ("stroke", "frequency", "power", "rms_power", "mean_alternator_force"):
+            values[name] = 0.0
+        values["moving_mass"] = float(engine.translator.mass)
+        return cls(**values)
+
+    @classmethod
+    def of_cycle(
+        cls,
+        engine: Engine,
+        strokes: np.ndarray,
+        run: np.ndarray,
+        history: np.ndarray | None = None,
+    ) -> Performance:
+        """Performance over a cycle.
+
+        Parameters
+        ----------
+        engine : Engine
+        strokes : ndarray of STROKE_RECORD, shape (2,)
+            The cycle, with its peaks located.
+        run : ndarray of STROKE_RECORD
+            All strokes up to the end of the cycle.
+        history : ndarray of HISTORY_RECORD, optional
+            The cycle's history.
+        """
+        period = float(strokes["duration"].sum())
+        power = float(strokes["electrical_energy"].sum()) / period
+        fuel = float(strokes["fresh_fuel_energy"].sum())
+        cylinders = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
+        work = float(strokes["gas_work"].sum())
+        burn = timing(engine, strokes)
+        stability, cr_change = repeatability(engine, run)
+        masses = strokes["charge_mass"][-1][cylinders] if any(cylinders) else np.array([nan])
+        return cls(
+            stroke=float(np.abs(strokes["x_end"] - strokes["x_start"]).mean()),
+            compression_ratio=float(cycle_compression_ratios(engine, strokes)[0]),
+            frequency=1.0 / period,
+            power=power,
+            rms_power=math.sqrt(max(float(strokes["electrical_squared"].sum()), 0.0) / period),
+            efficiency=power * period / fuel if fuel > 0.0 else nan,
+            mean_alternator_force=float(strokes["alternator_impulse"].sum()) / period,
+            peak_pressure=float(strokes["peak_pressure"].max()),
+            peak_acceleration=float(strokes["peak_acceleration"].max()),
+            peak_velocity=float(strokes["peak_velocity"].max()),
+            fuel_energy_per_cycle=fuel,
+            charge_mass=float(masses.mean()),
+            moving_mass=float(engine.translator.mass),
+            peak_temperature=float(strokes["peak_temperature"].max()),
+            peak_pressure_rise=float(strokes["peak_pressure_rise"].max()),
+            indicated_work=work,
+            indicated_efficiency=work / fuel if fuel > 0.0 else nan,
+            adverse_work=nan if history is None else adverse_work(engine, history),
+            start_of_combustion=burn.start,
+            start_of_combustion_position=burn.start_position,
+            burn_centre=burn.centre,
+            stability=stability,
+            cr_change=cr_change,
+        )
+
+
+@dataclass(frozen=True)
+class EnergyBalance:
+    """Where the energy went between two dead centres; joules.
+
+    Every term is integrated or evaluated by itself, none is a difference that makes the balance
+    close; `residual` is what is left over.
+
+    Attributes
+    ----------
+    fuel : float
+        Lower heating value of the fresh fuel.
+    unburnt : float
+        Lower heating value of the fuel that left with the exhaust.
+    released : float
+        Heat released by combustion.
+    heat_transfer : float
+        Heat to the walls.
+    exhaust : float
+        Internal energy given up when the ports opened, against that of the fresh charge.
+    port_work : float
+        Work of the intake pressure on the pistons while the ports are open.
+    friction, alternator : float
+        Mechanical work taken by friction and alternator.
+    electrical : float
+        Electrical energy delivered.
+    stored : float
+        Increase of the energy in springs and gas (there is no kinetic energy at dead centres).
+    stored_fuel : float
+        Increase of the fuel in the chambers, by its lower heating value.
+    residual : float
+        ``released + port_work - heat_transfer - exhaust - friction - alternator - stored``.
+    """
+
+    fuel: float
+    unburnt: float
+    released: float
+    heat_transfer: float
+    exhaust: float
+    port_work: float
+    friction: float
+    alternator: float
+    electrical: float
+    stored: float
+    stored_fuel: float
+    residual: float
+
+    def to_dict(self) -> dict[str, float]:
+        """All terms by name [J]."""
+        return dataclasses.asdict(self)
+
+    @property
+    def alternator_loss(self) -> float:
+        """Mechanical work the alternator did not turn into electrical energy [J]."""
+        return self.alternator - self.electrical
+
+    @classmethod
+    def between(cls, before: Any, strokes: np.ndarray) -> EnergyBalance:
+        """Balance over consecutive strokes, given the row of the stroke before them."""
+        last = strokes[-1]
+        held_before = before["spring_energy"] + before["internal_energy"].sum()
+        held_after = last["spring_energy"] + last["internal_energy"].sum()
+        terms = {
+            "released": strokes["heat_released"].sum(),
+            "heat_transfer": strokes["heat_lost"].sum(),
+            "exhaust": strokes["exhaust_energy"].sum(),
+            "port_work": strokes["port_work"].sum(),
+            "friction": strokes["friction_work"].sum(),
+            "alternator": strokes["alternator_work"].sum(),
+            "stored": held_after - held_before,
+        }
+        gains = terms["released"] + terms["port_work"]
+        uses = sum(
+            terms[name] for name in ("heat_transfer", "exhaust", "friction", "alternator", "stored")
+        )
+        return cls(
+            fuel=float(strokes["fresh_fuel_energy"].sum()),
+            unburnt=float(strokes["exhaust_fuel_energy"].sum()),
+            electrical=float(strokes["electrical_energy"].sum()),
+            stored_fuel=float(last["fuel_energy"].sum() - before["fuel_energy"].sum()),
+            residual=float(gains - uses),
+            **{name: float(value) for name, value in terms.items()},
+        )

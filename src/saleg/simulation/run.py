@@ -1,0 +1,196 @@
+"""Results of a run. They only read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.kernel.layout import EVENT_NAMES
+from saleg.simulation.performance import EnergyBalance, Performance
+from saleg.simulation.tables import cycle_table, dead_centre_table, event_table, history_table
+from saleg.status import Status
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from saleg.plotting import Plots
+
+
+@dataclass(eq=False)
+class Run:
+    """A simulated stretch of time.
+
+    Attributes
+    ----------
+    engine : Engine
+        The engine that ran.
+    status : Status
+        How the run ended.
+    message : str
+        What happened, when, and what to try.
+    duration : float
+        Time simulated [s].
+    strokes : ndarray
+        One record per stroke (see :mod:`saleg.kernel.layout`).
+    evaluations, steps : int
+        Right-hand sides evaluated and steps taken, events included.
+    settings : dict
+        How the run was integrated.
+    """
+
+    engine: Engine
+    status: Status
+    message: str
+    duration: float
+    strokes: np.ndarray = field(repr=False)
+    event_rows: np.ndarray = field(repr=False)
+    history_rows: np.ndarray | None = field(repr=False)
+    evaluations: int = 0
+    steps: int = 0
+    settings: dict[str, Any] = field(default_factory=dict)
+    replay: Callable[[], Run] | None = field(default=None, repr=False)
+
+    @property
+    def fired(self) -> bool:
+        """Whether the last cycle released heat in at least one chamber."""
+        last = self.last_cycle_strokes
+        return last is not None and float(last["heat_released"].sum()) > 0.0
+
+    @property
+    def last_cycle_strokes(self) -> np.ndarray | None:
+        """Records of the last full cycle, left to left dead centre; None without one."""
+        start = last_cycle_start(self.strokes)
+        return None if start is None else self.strokes[start : start + 2]
+
+    @cached_property
+    def cycles(self) -> pd.DataFrame:
+        """One row per cycle, left dead centre to left dead centre; units in ``.attrs``."""
+        return cycle_table(self.engine, self.strokes)
+
+    @cached_property
+    def dead_centres(self) -> pd.DataFrame:
+        """One row per stroke: what its end shows a controller, and what was commanded during it.
+
+        Units in ``.attrs``.
+        """
+        return dead_centre_table(self.engine, self.strokes)
+
+    @cached_property
+    def events(self) -> pd.DataFrame:
+        """One row per event: when, what, which side, and the state there; units in ``.attrs``."""
+        return event_table(self.event_rows, EVENT_NAMES)
+
+    @cached_property
+    def history(self) -> pd.DataFrame | None:
+        """One row per recorded step, two at an event (before and after); None if not asked for."""
+        return None if self.history_rows is None else history_table(self.history_rows)
+
+    @cached_property
+    def orbit(self) -> Run | None:
+        """The last full cycle again, with its whole history and all peaks located; or None."""
+        return self.replay() if self.replay is not None else None
+
+    @cached_property
+    def range_exits(self) -> list[dict[str, Any]]:
+        """Where the last full cycle left the ranges its laws were made for; empty without one.
+
+        See :func:`.ranges.range_exits`; ``pandas.DataFrame(run.range_exits)`` is a table.
+        """
+        from saleg.simulation.ranges import range_exits
+
+        orbit = self.orbit
+        if orbit is None or orbit.history_rows is None:
+            return []
+        return range_exits(self.engine, orbit.strokes, orbit.history_rows)
+
+    @cached_property
+    def performance(self) -> Performance:
+        """Figures of the last full cycle; zeros and NaN for a run that stalled."""
+        if self.status in (Status.STALLED, Status.INVALID):
+            return Performance.of_nothing(self.engine)
+        start = last_cycle_start(self.strokes)
+        if start is None:
+            return Performance.of_nothing(self.engine)
+        before = self.strokes[: start + 2]
+        if self.orbit is None:
+            return Performance.of_cycle(self.engine, before[-2:], before)
+        orbit = self.orbit
+        return Performance.of_cycle(self.engine, orbit.strokes, before, orbit.history_rows)
+
+    @cached_property
+    def energy(self) -> EnergyBalance | None:
+        """Energy balance of the last full cycle; None if no stroke is known before it."""
+        start = last_cycle_start(self.strokes)
+        if start is None or start == 0:
+            return None
+        return EnergyBalance.between(self.strokes[start - 1], self.strokes[start : start + 2])
+
+    @property
+    def plot(self) -> Plots:
+        """Figures of the run: ``run.plot.pressure_volume()`` and so on; ``dir`` lists them."""
+        from saleg.plotting import Plots
+
+        return Plots(self)
+
+    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> None:
+        """Save the run with its engine, so that :meth:`load` gives an equal one.
+
+        Parameters
+        ----------
+        path : str or path
+            The suffix chooses the format: ``.npz``, ``.mat``, ``.h5``, ``.nc``; a name without one
+            is a folder of CSV tables. The file is there whole or not at all.
+        overwrite : bool
+            Replace what :meth:`save` put there earlier.
+
+        Raises
+        ------
+        RunFileError
+            If something is in the way, or cannot be written.
+        """
+        from saleg.export import save
+
+        save(self, path, overwrite=overwrite)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str], *, laws: Sequence[type] = ()) -> Run:
+        """Load a run; nothing is simulated again.
+
+        Parameters
+        ----------
+        path : str or path
+            File or folder :meth:`save` wrote.
+        laws : sequence of Law or Start classes, optional
+            Classes of your own that the engine uses.
+
+        Returns
+        -------
+        Run
+
+        Raises
+        ------
+        RunFileError
+            Naming the file and what is wrong with it.
+        """
+        from saleg.export import load
+
+        return load(path, laws=laws)
+
+    def __str__(self) -> str:
+        from saleg.simulation.report import describe_run
+
+        return describe_run(self)
+
+
+def last_cycle_start(strokes: np.ndarray) -> int | None:
+    """Index of the first of the two strokes of the last full cycle."""
+    for start in range(len(strokes) - 2, max(len(strokes) - 4, -1), -1):
+        if strokes["direction"][start] > 0.0 and strokes["direction"][start + 1] < 0.0:
+            return start
+    return None

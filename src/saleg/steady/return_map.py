@@ -1,0 +1,314 @@
+"""The return map of an engine: from one dead centre to the next alike."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from types import CodeType
+from typing import Any
+
+import numpy as np
+
+from saleg.compiler.compose import Kernel, kernel_for, needs_motored_pressure, parameters
+from saleg.compiler.controllers import nobody
+from saleg.compiler.source import fingerprint
+from saleg.engine import BounceChamber, Engine
+from saleg.kernel import layout, tableaus
+from saleg.kernel.orbit import (
+    CYCLE,
+    DEPTH,
+    FIND,
+    IMAGE,
+    Z_AMPERES,
+    Z_CHAMBERS,
+    Z_LN_MOTORED,
+    Z_LN_PRESSURE,
+    write_vector,
+)
+from saleg.laws import NoHeatTransfer, NoMisfires
+from saleg.laws.arguments import Motion
+from saleg.laws.base import Alternator, Law
+from saleg.simulation.initial_state import State
+from saleg.simulation.integration import Settings, options_record, work_space
+
+#: Longest time to the next return, over the natural time of half a stroke.
+LONGEST = 200.0
+#: Positions, velocities and currents, over their natural sizes, at which the laws of motion are
+#: compared with their mirror images.
+PROBES = tuple(
+    (position, speed, 0.7 * speed)
+    for position, speed in zip(
+        (0.03, 0.11, 0.23, 0.31, 0.42, 0.53, 0.61, 0.72, 0.80, 0.86, 0.90, 0.94, 0.97, 0.99),
+        (0.97, -0.9, 0.85, -0.8, 0.7, -0.6, 0.5, -0.45, 0.4, -0.3, 0.25, -0.2, 0.1, -0.05),
+        strict=True,
+    )
+)
+#: Difference of a central difference, over the numbers of order one in a vector.
+DIFFERENCE = 1e-5
+
+
+class NoReturn(Exception):
+    """The map has no image: the engine stalls, meets its head, or its step fails.
+
+    Attributes
+    ----------
+    code : int
+        Why the integrator came back.
+    """
+
+    def __init__(self, code: int):
+        super().__init__(code)
+        self.code = code
+
+
+@dataclass
+class ReturnMap:
+    """Return map of an engine, with the records it works on.
+
+    Attributes
+    ----------
+    engine : Engine
+    kernel : Kernel
+    state : State
+        The present state; every call moves it.
+    mirrored : bool
+        Whether the map is that of half a cycle, seen in the mirror.
+    strokes : ndarray of STROKE_RECORD
+        Rows of the latest map.
+    snapshot : tuple of ndarray
+        States at the last two left dead centres.
+    run : tuple
+        Arguments of the integrator, its address, and a spare chamber.
+    """
+
+    engine: Engine
+    kernel: Kernel
+    state: State
+    mirrored: bool
+    strokes: np.ndarray
+    snapshot: tuple[np.ndarray, ...]
+    run: tuple[Any, ...]
+
+    @classmethod
+    def of(cls, engine: Engine, state: State, rtol: float, mirrored: bool) -> ReturnMap:
+        """Return map that begins at a state."""
+        settings = Settings(
+            duration=math.inf,
+            rtol=rtol,
+            peaks=0,
+            motored_pressure=needs_motored_pressure(engine),
+        )
+        E = state.engine[0]
+        options = options_record(settings, math.inf)
+        options["events"] = 0
+        options["longest"] = LONGEST * E["length_scale"] / E["speed_scale"]
+        strokes = np.zeros(4, layout.STROKE_RECORD)
+        snapshot = (
+            np.zeros(2, layout.ENGINE_RECORD),
+            np.zeros((2, 2), layout.CHAMBER_RECORD),
+            np.zeros((2, layout.N_ALL)),
+        )
+        arguments = (
+            parameters(engine),
+            state.engine,
+            state.chambers,
+            state.y,
+            state.peaks,
+            tuple(tableaus.ADAPTIVE),
+            tableaus.ADAPTIVE_ORDER,
+            options,
+            strokes,
+            np.zeros(0, layout.EVENT_RECORD),
+            np.zeros(0, layout.HISTORY_RECORD),
+            np.zeros(3, np.int64),
+            snapshot,
+            work_space(len(tableaus.ADAPTIVE.b)),
+            nobody(),
+        )
+        kernel = kernel_for(engine)
+        address = kernel.address("run_on", arguments)
+        run = (arguments, address, np.zeros(1, layout.CHAMBER_RECORD))
+        return cls(engine, kernel, state, mirrored, strokes, snapshot, run)
+
+    @property
+    def strokes_per_map(self) -> float:
+        """Strokes from one return to the next."""
+        return 1.0 if self.mirrored else 2.0
+
+    @property
+    def evaluations(self) -> int:
+        """Right-hand sides evaluated so far."""
+        return int(self.state.engine["evaluations"][0])
+
+    def find(self, most: int, tolerance: float) -> tuple[int, np.ndarray]:
+        """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit).
+
+        Returns
+        -------
+        code : int
+            Why it ended, as a code of the layout.
+        found : ndarray
+            Maps taken, residual of the last one, residual of the whole cycle after it.
+        """
+        vectors = self._vectors()
+        return self._do(FIND, vectors, most, tolerance)
+
+    def _do(
+        self, task: int, vectors: tuple[np.ndarray, ...], most: int = 0, tolerance: float = 0.0
+    ) -> tuple[int, np.ndarray]:
+        """Call the compiled entry point; returns its code and what it found."""
+        found = np.zeros(3)
+        code = self.kernel.call(
+            "do_orbit",
+            task,
+            self.run,
+            self.strokes_per_map,
+            self.mirrored,
+            most,
+            tolerance,
+            vectors,
+            np.zeros(2, np.int64),
+            found,
+        )
+        return int(code), found
+
+    def cycle(self, start: State, z: np.ndarray) -> tuple[int, float]:
+        """One whole cycle from a vector, recorded; the code of its end and how far it misses."""
+        self.reset(start)
+        vectors = self._vectors()
+        vectors[0][:] = z
+        code, found = self._do(CYCLE, vectors)
+        return code, float(found[2])
+
+    def _vectors(self) -> tuple[np.ndarray, ...]:
+        """Room for points, residuals and images."""
+        n = layout.N_VECTOR
+        old = np.zeros((2, DEPTH, n))
+        return np.zeros(n), np.zeros(n), np.zeros(n), old[0], old[1], np.zeros((DEPTH, DEPTH + 2))
+
+    def reset(self, state: State) -> None:
+        """Go to a copy of a state."""
+        self.state.engine[:] = state.engine
+        self.state.peaks[:] = 0.0
+        self.state.chambers[:] = state.chambers
+        self.state.y[:] = state.y
+
+    def image(self, start: State, z: np.ndarray) -> np.ndarray:
+        """Image of a vector, the rest of the state as in `start`.
+
+        Raises
+        ------
+        NoReturn
+            If there is none.
+        """
+        self.reset(start)
+        vectors = self._vectors()
+        vectors[0][:] = z
+        code, _ = self._do(IMAGE, vectors)
+        if code != layout.END_OF_TIME:
+            raise NoReturn(code)
+        return vectors[2]
+
+    def vector(self, state: State) -> np.ndarray:
+        """A state as a vector."""
+        z = np.empty(layout.N_VECTOR)
+        write_vector(*state.records, state.y, z)
+        return z
+
+    def jacobian(self, start: State, z: np.ndarray) -> np.ndarray:
+        """Derivative of the map at a vector, by central differences.
+
+        Entries that stay the same whatever is done to them (those of an open chamber) cost
+        nothing but their own two maps.
+        """
+        matrix = np.zeros((len(z), len(z)))
+        kept = constant_entries(self.engine)
+        for n in range(len(z)):
+            if n in kept:
+                continue
+            ahead, behind = z.copy(), z.copy()
+            ahead[n] += DIFFERENCE
+            behind[n] -= DIFFERENCE
+            difference = self.image(start, ahead) - self.image(start, behind)
+            matrix[:, n] = difference / (2.0 * DIFFERENCE)
+        return matrix
+
+
+def constant_entries(engine: Engine) -> set[int]:
+    """Entries of the vector that nothing can change: a current that is not, a sealed charge."""
+    kept = set()
+    if type(engine.alternator).current_rate is Alternator.current_rate:
+        kept.add(Z_AMPERES)
+    for side, chamber in enumerate(engine.chambers):
+        first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
+        if isinstance(chamber, BounceChamber):
+            kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
+            kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED}
+        if not needs_motored_pressure(engine):
+            kept.add(first + Z_LN_MOTORED)
+    return kept
+
+
+def adiabatic_chambers(engine: Engine) -> int:
+    """Number of sealed chambers without heat transfer: each keeps its entropy for ever."""
+    return sum(
+        isinstance(chamber, BounceChamber) and isinstance(chamber.heat_transfer, NoHeatTransfer)
+        for chamber in engine.chambers
+    )
+
+
+def repeats_itself(engine: Engine) -> bool:
+    """Whether nothing in an engine depends on the time or on the number of the charge."""
+    for chamber in engine.chambers:
+        if not isinstance(getattr(chamber, "misfires", NoMisfires()), NoMisfires):
+            return False
+    kinds: list[Any] = [type(law) for law in _laws_of_motion(engine)]
+    return not any(_asks_for_time(kind) for kind in kinds)
+
+
+@lru_cache(maxsize=256)
+def _asks_for_time(law: Any) -> bool:
+    """Whether a method of a law, or a function it uses, takes an attribute ``t`` of anything."""
+    codes = [part for part in fingerprint(law) if isinstance(part, CodeType)]
+    return any("t" in code.co_names for code in codes)
+
+
+def is_symmetric(engine: Engine) -> bool:
+    """Whether an engine is its own mirror image, laws of motion included."""
+    if not engine.is_mirrored:
+        return False
+    # A class says so for itself, not for those derived from it.
+    if all(vars(type(law)).get("mirrors") for law in _laws_of_motion(engine)):
+        return True
+    for x, v, direction, current in _probes(engine):
+        there = _forces(engine, Motion(0.0, x, v, direction, current))
+        mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
+        signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
+        for sign, a, b in zip(signs, there, mirrored, strict=True):
+            if abs(sign * a - b) > 1e-12 * abs(a):
+                return False
+    return True
+
+
+def _laws_of_motion(engine: Engine) -> tuple[Law, ...]:
+    return engine.springs, engine.friction, engine.alternator
+
+
+def _probes(engine: Engine) -> list[tuple[float, float, float, float]]:
+    """Positions, velocities, directions and currents at which forces are compared."""
+    length = 0.5 * engine.maximum_stroke
+    speed = 100.0 * length
+    return [(a * length, b * speed, math.copysign(1.0, b), c) for a, b, c in PROBES]
+
+
+def _forces(engine: Engine, motion: Motion) -> list[float]:
+    """Forces and the rate of the current, then energies: odd and even in the mirror."""
+    return [
+        engine.springs.force(motion),
+        engine.friction.force(1.0, motion),
+        engine.alternator.force(1.0, motion),
+        engine.alternator.current_rate(1.0, motion),
+        engine.springs.energy(motion),
+        engine.alternator.electrical_power(1.0, motion),
+    ]

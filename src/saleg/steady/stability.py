@@ -1,0 +1,120 @@
+"""Stability of a steady state: multipliers of its return map, and what they mean."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from saleg.simulation.initial_state import State
+from saleg.simulation.integration import Replay
+from saleg.steady.return_map import ReturnMap, adiabatic_chambers, is_symmetric
+
+#: Tolerance of the integrator for differences of the map, which magnify its error.
+FINE = 1e-11
+#: Multipliers of the map below this are noise.
+LEAST = 1e-6
+#: Angle of a multiplier from the real axis below which it counts as real [rad].
+REAL = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Stability:
+    """Multipliers of a cycle and what they mean.
+
+    Attributes
+    ----------
+    multipliers : ndarray of complex
+        Factors by which small disturbances grow from one cycle to the next, the largest first [-].
+    kind : str
+        "stable", or how stability is lost: "fold" (a real multiplier beyond +1), "asymmetric"
+        (left and right grow apart), "period doubling" (beyond -1), "quasi-periodic" (a complex
+        pair: rhythmic stability, the orbit beats).
+    beat_period : float
+        Time in which the phase of the leading pair comes round [s]; infinite if it is real.
+    time_constant : float
+        Time in which the slowest disturbance falls (rises, if negative) by a factor e [s].
+    """
+
+    multipliers: np.ndarray
+    kind: str
+    beat_period: float
+    time_constant: float
+
+    @property
+    def stable(self) -> bool:
+        """Whether all disturbances die away."""
+        return self.kind == "stable"
+
+
+def stability(replay: Replay, period: float) -> Stability:
+    """Stability of a steady state: what the multipliers of its return map say.
+
+    Parameters
+    ----------
+    replay : Replay
+        The cycle of the steady state.
+    period : float
+        How long it takes [s].
+
+    Returns
+    -------
+    Stability
+    """
+    mirrored = is_symmetric(replay.engine)
+    return judged(map_multipliers(replay, mirrored), mirrored, period)
+
+
+def describe(found: Stability) -> str:
+    """Stability in a few lines of text."""
+    lines = [f"  stability                {found.kind:>10}"]
+    if len(found.multipliers):
+        lines.append(f"  largest multiplier       {abs(found.multipliers[0]):>10.3f} per cycle")
+    if math.isfinite(found.beat_period):
+        lines.append(f"  beat period              {1e3 * found.beat_period:>10.1f} ms")
+    return "\n".join(lines)
+
+
+def map_multipliers(replay: Replay, mirrored: bool) -> np.ndarray:
+    """Multipliers of the return map itself, the largest first [-]."""
+    E, C, y = (part[1] for part in replay.snapshot)
+    start = State(E.reshape(1).copy(), C.copy(), y.copy(), np.zeros(0))
+    chart = ReturnMap.of(replay.engine, start.copy(), FINE, mirrored)
+    values = np.linalg.eigvals(chart.jacobian(start, chart.vector(start)))
+    # What a sealed adiabatic chamber keeps for ever is no instability: a multiplier of one each.
+    for _ in range(adiabatic_chambers(replay.engine)):
+        values = np.delete(values, np.argmin(np.abs(np.abs(values) - 1.0)))
+    values = values[np.abs(values) > LEAST]
+    return values[np.argsort(-np.abs(values))]
+
+
+def judged(own: np.ndarray, mirrored: bool, period: float) -> Stability:
+    """What the multipliers of a map mean; those of a mirrored half cycle count twice a cycle."""
+    cycle = own**2 if mirrored else own
+    if not len(own):
+        return Stability(cycle, "stable", math.inf, 0.0)
+    leading, time = complex(own[0]), 0.5 * period if mirrored else period
+    angle = abs(cmath.phase(leading))
+    is_real = min(angle, math.pi - angle) < REAL
+    growth = math.log(abs(leading))
+    return Stability(
+        multipliers=cycle,
+        kind=_kind(leading, is_real, mirrored),
+        beat_period=math.inf if is_real else 2.0 * math.pi * time / angle,
+        time_constant=-time / growth if growth != 0.0 else math.inf,
+    )
+
+
+def _kind(leading: complex, is_real: bool, mirrored: bool) -> str:
+    """Name of what the leading multiplier of a map does."""
+    if abs(leading) < 1.0:
+        return "stable"
+    if not is_real:
+        cycle = leading**2 if mirrored else leading
+        turned = abs(abs(cmath.phase(cycle)) - math.pi) < REAL
+        return "period doubling" if turned else "quasi-periodic"
+    if leading.real > 0.0:
+        return "fold"
+    return "asymmetric" if mirrored else "period doubling"

@@ -1,0 +1,37 @@
+"""Studies: what changes with a numerical setting, or with one number or law of an engine."""
+
+from saleg.studies import sensitivity
+from saleg.studies.convergence import (
+    DELAYED,
+    TABLE_2_STEPS,
+    TABLE_4_TIMES,
+    UNITS,
+    WARM_UP,
+    StudyError,
+    beside_thesis,
+    delay_study,
+    delayed,
+    solver_study,
+    step_size_study,
+    stop_time_study,
+    tolerance_study,
+    work_precision,
+)
+
+__all__ = [
+    "DELAYED",
+    "TABLE_2_STEPS",
+    "TABLE_4_TIMES",
+    "UNITS",
+    "WARM_UP",
+    "StudyError",
+    "beside_thesis",
+    "delay_study",
+    "delayed",
+    "sensitivity",
+    "solver_study",
+    "step_size_study",
+    "stop_time_study",
+    "tolerance_study",
+    "work_precision",
+]

@@ -1,0 +1,1 @@
+"""The dissertation: its tables and chapters, beside what saleg computes."""

@@ -1,0 +1,316 @@
+"""The cache of compiled kernels must hit, and never be stale, mixed up or trusted blindly."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+
+import saleg
+from saleg.compiler.cache import locked, usable_folder, write_atomically
+
+REPORT = """
+import json, sys
+import saleg
+from saleg.compiler.compose import kernel_for
+if whole:
+    run = saleg.simulate(engine, 0.06, rtol=1e-6)
+    stats = kernel_for(engine).run_on.stats
+    kernel = kernel_for(engine)
+else:
+    from saleg import reference
+    run = reference.simulate(engine, 0.06, rtol=1e-6, jitted=True)
+    kernel = kernel_for(engine, ("plain_rhs",))
+    stats = kernel.rates_of_records.stats
+print(json.dumps({
+    "hits": sum(stats.cache_hits.values()),
+    "misses": sum(stats.cache_misses.values()),
+    "name": kernel.module.__name__,
+    "frequency": run.performance.frequency,
+    "x": run.strokes["x_end"].tolist(),
+}))
+"""
+
+LAW = """
+from dataclasses import dataclass
+from saleg.laws import Springs
+from saleg.quantities import quantity
+from {helper_module} import helper
+
+FACTOR = {factor}
+
+@dataclass(frozen=True)
+class MySprings(Springs):
+    stiffness: float = quantity("N/m", default=30e3)
+
+    def force(self, motion):
+        return -FACTOR * helper(self.stiffness) * motion.x{extra}
+
+    def energy(self, motion):
+        return 0.5 * FACTOR * helper(self.stiffness) * motion.x**2
+"""
+
+HELPER = """
+SCALE = {scale}
+
+def helper(stiffness):
+    return SCALE * stiffness
+"""
+
+
+def script(tmp_path, code, cache, check=True):
+    """Run code in a fresh process with its own cache folder."""
+    env = {**os.environ, "SALEG_CACHE_DIR": str(cache), "PYTHONPATH": str(tmp_path)}
+    env.pop("NUMBA_CACHE_DIR", None)
+    return subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(code)],
+        capture_output=True,
+        text=True,
+        env=env,
+        check=check,
+        cwd=tmp_path,
+    )
+
+
+def report(tmp_path, engine, cache, whole=True):
+    """What a process sees of a kernel: the whole one, or that of the reference, soon compiled."""
+    engine = textwrap.dedent(engine)
+    out = script(tmp_path, f"import saleg\n{engine}\nwhole = {whole}\n{REPORT}", cache)
+    return json.loads(out.stdout.splitlines()[-1])
+
+
+BASE = "engine = saleg.machines.thesis_base()"
+
+
+def test_a_second_process_hits_the_cache(tmp_path):
+    cache = tmp_path / "cache"
+    first = report(tmp_path, BASE, cache)
+    second = report(tmp_path, BASE, cache)
+    assert (first["hits"], first["misses"]) == (0, 1)
+    assert (second["hits"], second["misses"]) == (1, 0)
+    assert first["x"] == second["x"]
+
+
+def test_changed_numbers_do_not_recompile(tmp_path):
+    cache = tmp_path / "cache"
+    first = report(tmp_path, BASE, cache)
+    other = report(tmp_path, BASE + ".replace(bore=0.06, egr=0.2)", cache)
+    assert other["hits"] == 1
+    assert other["x"] != first["x"]
+
+
+def write_law(folder, factor=2.0, scale=1.0, extra="", name="mylaw", helper="myhelper"):
+    law = LAW.format(factor=factor, extra=extra, helper_module=helper)
+    (folder / f"{name}.py").write_text(law)
+    (folder / f"{helper}.py").write_text(HELPER.format(scale=scale))
+
+
+CUSTOM = """
+from mylaw import MySprings
+engine = saleg.machines.thesis_base().replace(springs=MySprings())
+"""
+
+
+def test_an_edited_law_helper_or_constant_recompiles(tmp_path):
+    cache = tmp_path / "cache"
+    write_law(tmp_path)
+    base = report(tmp_path, BASE, cache, whole=False)
+    same = report(tmp_path, CUSTOM, cache, whole=False)
+    assert same["x"] == base["x"]
+    assert report(tmp_path, CUSTOM, cache, whole=False)["hits"] == 1
+    seen = {same["name"]}
+    for edit in ({"factor": 2.2}, {"scale": 1.1}, {"extra": " * 1.1"}):
+        write_law(tmp_path, **edit)
+        edited = report(tmp_path, CUSTOM, cache, whole=False)
+        assert edited["misses"] == 1
+        assert edited["name"] not in seen
+        seen.add(edited["name"])
+        assert edited["frequency"] > 1.005 * base["frequency"]
+
+
+def test_engines_with_different_laws_in_one_process_never_mix(tmp_path):
+    write_law(tmp_path, name="law_a", helper="helper_a", scale=1.0)
+    write_law(tmp_path, name="law_b", helper="helper_b", scale=1.3)
+    code = """
+    import saleg, law_a, law_b
+    from saleg.reference import simulate
+    base = saleg.machines.thesis_base()
+    a, b = base.replace(springs=law_a.MySprings()), base.replace(springs=law_b.MySprings())
+    run = lambda e: simulate(e, 0.06, jitted=True).strokes["x_end"].tolist()
+    first = [run(e) for e in (base, a, b)]
+    again = [run(e) for e in (b, a, base)][::-1]
+    stiff = run(base.replace(**{"spring.stiffness": 39e3}))
+    assert first == again
+    same = lambda one, two: max(abs(a - b) for a, b in zip(one, two, strict=True)) < 1e-9
+    assert same(first[0], first[1]) and not same(first[0], first[2])
+    assert same(first[2], stiff)
+    print("fine")
+    """
+    assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
+    assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
+
+
+def test_left_and_right_may_have_different_laws(base):
+    mixed = base.replace(**{"left.heat_transfer": saleg.laws.NoHeatTransfer()})
+    run = saleg.simulate(mixed, 0.1)
+    assert (run.strokes["heat_lost"][:, 0] == 0.0).all()
+    assert (run.strokes["heat_lost"][1:, 1] > 0.0).all()
+
+
+def test_parallel_cold_starts(tmp_path):
+    cache = tmp_path / "cache"
+    env = {**os.environ, "SALEG_CACHE_DIR": str(cache)}
+    code = f"import saleg\n{BASE}\nwhole = True\n{REPORT}"
+    workers = [
+        subprocess.Popen(
+            [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=env
+        )
+        for _ in range(3)
+    ]
+    reports = []
+    for worker in workers:
+        out, err = worker.communicate(timeout=300)
+        assert worker.returncode == 0, err.decode()
+        reports.append(json.loads(out.splitlines()[-1]))
+    assert len({json.dumps(item["x"]) for item in reports}) == 1
+    assert sum(item["misses"] for item in reports) == 1
+
+
+def test_a_planted_module_is_not_executed(tmp_path):
+    cache = tmp_path / "cache"
+    first = report(tmp_path, BASE, cache)
+    module = next(cache.glob("saleg_kernel_*.py"))
+    text = module.read_text()
+    module.write_text("raise SystemExit('planted')\n")
+    again = report(tmp_path, BASE, cache)
+    assert again["x"] == first["x"]
+    assert module.read_text() == text
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="modes of POSIX")
+def test_a_folder_others_may_write_to_is_not_used(tmp_path, monkeypatch):
+    shared = tmp_path / "shared"
+    shared.mkdir()
+    shared.chmod(0o777)
+    monkeypatch.setenv("SALEG_CACHE_DIR", str(shared))
+    with pytest.warns(RuntimeWarning, match="others may write"):
+        assert usable_folder() is None
+    out = script(tmp_path, f"import saleg\n{BASE}\nwhole = True\n{REPORT}", shared)
+    assert "others may write" in out.stderr
+    assert list(shared.iterdir()) == []
+
+
+def test_cache_folder_is_private(tmp_path, monkeypatch):
+    monkeypatch.setenv("SALEG_CACHE_DIR", str(tmp_path / "new" / "cache"))
+    folder = usable_folder()
+    assert folder is not None
+    if sys.platform != "win32":
+        assert folder.stat().st_mode & 0o077 == 0
+
+
+def test_files_are_written_whole_or_not_at_all(tmp_path, monkeypatch):
+    target = tmp_path / "file.py"
+    write_atomically(target, "whole")
+
+    def fail(*_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr(os, "replace", fail)
+    with pytest.raises(OSError, match="disk full"):
+        write_atomically(target, "half")
+    assert target.read_text() == "whole"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_lock_is_released(tmp_path):
+    for _ in range(2):
+        with locked(tmp_path / "lock"):
+            pass
+
+
+def test_law_without_source_runs_uncached(tmp_path):
+    """As typed into a plain interpreter."""
+    code = """
+    import saleg
+    text = '''
+    from dataclasses import dataclass
+    import math
+    from saleg.laws import Springs
+    DOUBLE = 2.0
+    def product(a, b):
+        return math.fabs(a) * b
+    @dataclass(frozen=True)
+    class Typed(Springs):
+        stiffness: float = 30e3
+        def force(self, motion):
+            return -DOUBLE * product(self.stiffness, motion.x)
+        def energy(self, motion):
+            return product(self.stiffness, motion.x * motion.x)
+    '''
+    import textwrap
+    names = {"__name__": "typed"}
+    exec(textwrap.dedent(text), names)
+    base = saleg.machines.thesis_base()
+    typed = saleg.simulate(base.replace(springs=names["Typed"]()), 0.06)
+    given = saleg.simulate(base, 0.06)
+    assert abs(typed.strokes["x_end"] - given.strokes["x_end"]).max() < 1e-12
+    print("fine")
+    """
+    assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
+
+
+def test_law_of_a_notebook_cell_runs_compiled(tmp_path):
+    pytest.importorskip("IPython")
+    code = '''
+    from IPython.core.interactiveshell import InteractiveShell
+    shell = InteractiveShell.instance()
+    cell = """
+    import math
+    from dataclasses import dataclass
+    import saleg
+    from saleg.laws import Friction
+
+    LIMIT = 1.5
+
+    def rubbing(v):
+        return math.tanh(v / LIMIT)
+
+    @dataclass(frozen=True)
+    class Rubbing(Friction):
+        force_level: float = 120.0
+
+        def at_dead_centre(self, held, stroke):
+            return self.force_level
+
+        def force(self, held, motion):
+            return held * rubbing(motion.v)
+
+    run = saleg.simulate(saleg.machines.thesis_base().replace(friction=Rubbing()), 1.0)
+    """
+    import textwrap
+    result = shell.run_cell(textwrap.dedent(cell))
+    result.raise_error()
+    run = shell.user_ns["run"]
+    from saleg.compiler.compose import kernel_for
+    kernel = kernel_for(run.engine)
+    assert kernel.module.__file__.endswith(".py"), kernel.module.__file__
+    assert run.performance.power > 2e4
+    again = shell.run_cell(textwrap.dedent(cell).replace("120.0", "240.0").replace("1.5", "1.6"))
+    again.raise_error()
+    assert shell.user_ns["run"].performance.power < run.performance.power
+    print("fine")
+    '''
+    out = script(tmp_path, code, tmp_path / "cache")
+    assert out.stdout.strip().endswith("fine"), out.stdout + out.stderr
+
+
+def test_composed_text_holds_the_law_as_written(base):
+    from saleg.compiler.compose import kernel_for
+
+    text = Path(kernel_for(base).module.__file__).read_text()
+    assert re.search(r"def engine_springs_force\(self, motion\)", text)
+    assert "from saleg" not in text
