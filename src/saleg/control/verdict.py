@@ -14,7 +14,7 @@ from saleg.kernel.decide import with_motoring
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS, StateLogic
 from saleg.simulation.integration import Course
-from saleg.simulation.outcome import PER_CYCLE, STEADY, change_per_cycle, verdict
+from saleg.simulation.outcome import settled, verdict
 from saleg.status import Status
 
 #: Which part of a controller gives each command.
@@ -100,9 +100,5 @@ def verdict_of(course: Course, code: int, fault: str = "") -> tuple[Status, str]
     what = "motored" if E["motoring"] > 0.0 else "without fuel"
     length = float(E["stroke"])
     where = f"{what} at t = {t:.6g} s with a stroke of {1e3 * length:.4g} mm"
-    change = change_per_cycle(course.engine, strokes)
-    if change is None:
-        return Status.COMPLETED, f"{where}; too few cycles to call it steady"
-    steady = change < STEADY
-    status = Status.STEADY if steady else Status.COMPLETED
-    return status, f"{where}: {PER_CYCLE.format(change)}"
+    steady, how = settled(course.engine, strokes)
+    return Status.STEADY if steady else Status.COMPLETED, f"{where}: {how}"

@@ -300,8 +300,9 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
     """Iterate and extrapolate the return map until a state returns to itself; take one cycle then.
 
     On return the records of `run` hold the state at the last dead centre and the rows of the
-    cycle. `found` is (maps taken, residual of the map, residual of the cycle). Returns the code of
-    the integrator, or that nothing was found in `most` maps.
+    cycle. `found` is (maps taken, residual of the map, residual of the cycle). The vectors hold the
+    begin of the cycle, the residual of the map before it and the end of the cycle. Returns the code
+    of the integrator, or that nothing was found in `most` maps.
     """
     z, f, image, z_old, f_old, gram = vectors
     E1, C, y = run[0][1], run[0][2], run[0][3]
@@ -318,12 +319,12 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
         write_vector(E, C, y, image)
         alike = same_modes(C, modes)
         found[1] = distance(image, z)
+        for n in range(N_VECTOR):
+            f[n] = image[n] - z[n]
         if alike and found[1] <= tolerance:
             return verified(run, vectors, found)
         if not alike:
             known = 0
-        for n in range(N_VECTOR):
-            f[n] = image[n] - z[n]
         trusted = known > 0 and count >= WARM_UP
         trusted = trusted and extrapolate(z, f, z_old, f_old, min(known, DEPTH), image, gram)
         if alike:

@@ -91,7 +91,7 @@ def _prepare(engine: Engine) -> State:
     _fill_engine(E, engine, start, C)
     refresh(engine, E, C, y)
     for side, held in enumerate((start.left, start.right)):
-        if held.burning:
+        if held.burning and held.fuel > 0.0:
             ignite(engine, E, C, side, y, 0)
     dy = [0.0] * layout.N_ALL
     rhs(engine, E, C, 0.0, y, dy, 0)
@@ -102,6 +102,12 @@ def _prepare(engine: Engine) -> State:
         np.array(y),
         np.zeros(layout.N_PEAKS),
     )
+
+
+def natural_period(engine: Engine) -> float:
+    """Period of a small oscillation about the midpoint [s], for scales only."""
+    stiffness = _stiffness(engine, 0.5 * engine.maximum_stroke)
+    return 2.0 * math.pi * math.sqrt(engine.translator.mass / stiffness)
 
 
 def sign(value: float) -> float:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import dis
+import itertools
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from types import CodeType
+from types import CodeType, FunctionType
 from typing import Any
 
 import numpy as np
 
 from saleg.compiler.compose import Kernel, kernel_for, needs_motored_pressure, parameters
 from saleg.compiler.controllers import nobody
-from saleg.compiler.source import fingerprint
 from saleg.engine import BounceChamber, Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.orbit import (
@@ -24,13 +25,14 @@ from saleg.kernel.orbit import (
     Z_CHAMBERS,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
+    read_vector,
     write_vector,
 )
 from saleg.laws import NoHeatTransfer, NoMisfires
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Alternator, Law
 from saleg.simulation.initial_state import State
-from saleg.simulation.integration import Settings, options_record, work_space
+from saleg.simulation.integration import STEPS_PER_CALL, Settings, options_record, work_space
 
 #: Longest time to the next return, over the natural time of half a stroke.
 LONGEST = 200.0
@@ -44,6 +46,13 @@ PROBES = tuple(
         strict=True,
     )
 )
+#: Methods of laws of motion that are shown a stroke, not a motion.
+SHOWN_NO_MOTION = ("at_dead_centre",)
+#: How Python takes a field by name, and the fields of a motion that are not the time.
+TAKE = "LOAD_ATTR"
+TIMELESS = frozenset(Motion._fields) - {"t"}
+#: Longest way of a jump at once, over the entry of the vector or one.
+FARTHEST = 0.5
 #: Difference of a central difference, over the numbers of order one in a vector.
 DIFFERENCE = 1e-5
 
@@ -80,6 +89,8 @@ class ReturnMap:
         States at the last two left dead centres.
     run : tuple
         Arguments of the integrator, its address, and a spare chamber.
+    vectors : tuple of ndarray
+        Points, residuals and images of the latest search (see the kernel's find_orbit).
     """
 
     engine: Engine
@@ -89,10 +100,18 @@ class ReturnMap:
     strokes: np.ndarray
     snapshot: tuple[np.ndarray, ...]
     run: tuple[Any, ...]
+    vectors: tuple[np.ndarray, ...] = ()
 
     @classmethod
-    def of(cls, engine: Engine, state: State, rtol: float, mirrored: bool) -> ReturnMap:
-        """Return map that begins at a state."""
+    def of(
+        cls,
+        engine: Engine,
+        state: State,
+        rtol: float,
+        mirrored: bool,
+        most_steps: int = STEPS_PER_CALL,
+    ) -> ReturnMap:
+        """Return map that begins at a state; a return may take so many steps."""
         settings = Settings(
             duration=math.inf,
             rtol=rtol,
@@ -102,6 +121,7 @@ class ReturnMap:
         E = state.engine[0]
         options = options_record(settings, math.inf)
         options["events"] = 0
+        options["max_steps"] = most_steps
         options["longest"] = LONGEST * E["length_scale"] / E["speed_scale"]
         strokes = np.zeros(4, layout.STROKE_RECORD)
         snapshot = (
@@ -151,20 +171,28 @@ class ReturnMap:
         found : ndarray
             Maps taken, residual of the last one, residual of the whole cycle after it.
         """
-        vectors = self._vectors()
-        return self._do(FIND, vectors, most, tolerance)
+        self.vectors = self._vectors()
+        return self._do(FIND, self.vectors, most, tolerance)
 
     def _do(
-        self, task: int, vectors: tuple[np.ndarray, ...], most: int = 0, tolerance: float = 0.0
+        self,
+        task: int,
+        vectors: tuple[np.ndarray, ...],
+        most: int = 0,
+        tolerance: float = 0.0,
+        strokes: float | None = None,
     ) -> tuple[int, np.ndarray]:
-        """Call the compiled entry point; returns its code and what it found."""
+        """Call the compiled entry point; returns its code and what it found.
+
+        A map may be of another number of strokes than usual; it is then not mirrored.
+        """
         found = np.zeros(3)
         code = self.kernel.call(
             "do_orbit",
             task,
             self.run,
-            self.strokes_per_map,
-            self.mirrored,
+            self.strokes_per_map if strokes is None else strokes,
+            self.mirrored and strokes is None,
             most,
             tolerance,
             vectors,
@@ -172,6 +200,22 @@ class ReturnMap:
             found,
         )
         return int(code), found
+
+    def jump(self, change: np.ndarray) -> None:
+        """Move the present state by a change of its vector, if that is long by a part of it."""
+        z = self.vector(self.state)
+        room = (FARTHEST * np.maximum(np.abs(z), 1.0) / np.maximum(np.abs(change), 1e-300)).min()
+        read_vector(*self.state.records, self.state.y, z + min(room, 1.0) * change)
+
+    def begin_on_the_left(self) -> None:
+        """Take the cycle just recorded from its left dead centre, if it began on the right."""
+        if self.state.engine["direction"][0] > 0.0:
+            return
+        vectors = self._vectors()
+        vectors[0][:] = self.vector(self.state)
+        self._do(IMAGE, vectors, strokes=1.0)
+        vectors[0][:] = vectors[2]
+        self._do(CYCLE, vectors)
 
     def cycle(self, start: State, z: np.ndarray) -> tuple[int, float]:
         """One whole cycle from a vector, recorded; the code of its end and how far it misses."""
@@ -250,6 +294,17 @@ def constant_entries(engine: Engine) -> set[int]:
     return kept
 
 
+def conserved_entries(engine: Engine) -> set[int]:
+    """Entries of the vector that keep the entropy of sealed chambers without heat transfer."""
+    return {
+        Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
+        for side, chamber in enumerate(engine.chambers)
+        if isinstance(chamber, BounceChamber)
+        and isinstance(chamber.heat_transfer, NoHeatTransfer)
+        for n in (Z_LN_PRESSURE, Z_LN_MOTORED)
+    }
+
+
 def adiabatic_chambers(engine: Engine) -> int:
     """Number of sealed chambers without heat transfer: each keeps its entropy for ever."""
     return sum(
@@ -263,15 +318,35 @@ def repeats_itself(engine: Engine) -> bool:
     for chamber in engine.chambers:
         if not isinstance(getattr(chamber, "misfires", NoMisfires()), NoMisfires):
             return False
-    kinds: list[Any] = [type(law) for law in _laws_of_motion(engine)]
-    return not any(_asks_for_time(kind) for kind in kinds)
+    return not any(_asks_for_time(type(law)) for law in _laws_of_motion(engine))
 
 
 @lru_cache(maxsize=256)
-def _asks_for_time(law: Any) -> bool:
-    """Whether a method of a law, or a function it uses, takes an attribute ``t`` of anything."""
-    codes = [part for part in fingerprint(law) if isinstance(part, CodeType)]
-    return any("t" in code.co_names for code in codes)
+def _asks_for_time(law: type[Law]) -> bool:
+    """Whether a method of a law may look at the time in the motion it is shown.
+
+    It does not if all it takes from the motion is fields by name, and none of them the time.
+    Whoever unpacks the motion, takes a field by number or hands the motion on may well look.
+    """
+    return any(
+        not isinstance(method, FunctionType) or _looks_at_time(method.__code__)
+        for method in (getattr(law, name) for name in law.compiled if name not in SHOWN_NO_MOTION)
+    )
+
+
+def _looks_at_time(code: CodeType) -> bool:
+    """Whether code does anything with its last argument but take fields other than the time."""
+    motion = code.co_varnames[code.co_argcount - 1]
+    steps = [step for step in dis.get_instructions(code) if step.opname not in ("CACHE", "NOP")]
+    for step, following in itertools.zip_longest(steps, steps[1:]):
+        names = step.argval if isinstance(step.argval, tuple) else (step.argval,)
+        if motion not in names or step.opname == "LOAD_CONST":
+            continue
+        taken = following.argval if following is not None and following.opname == TAKE else None
+        loaded_last = "LOAD_FAST" in step.opname and names[-1] == motion
+        if not loaded_last or motion in names[:-1] or taken not in TIMELESS:
+            return True
+    return False
 
 
 def is_symmetric(engine: Engine) -> bool:
