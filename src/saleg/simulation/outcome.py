@@ -14,8 +14,8 @@ from saleg.status import Status
 
 #: Change of the dead centres per cycle, over the half stroke (Eq. 68), below which a run is steady.
 STEADY = 1e-6
-#: Distance from where dead centres, charges and what laws remember are heading, over the half stroke
-#: or over themselves, within which a run is steady.
+#: Distance from where dead centres, charges and what laws remember are heading, in half strokes or
+#: relative, within which a run is steady.
 NEAR = 1e-4
 #: Residual of a cycle's energy balance, over the heat released, beyond which it is no result.
 MOST_IMBALANCE = 0.05

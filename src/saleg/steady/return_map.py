@@ -299,8 +299,7 @@ def conserved_entries(engine: Engine) -> set[int]:
     return {
         Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
         for side, chamber in enumerate(engine.chambers)
-        if isinstance(chamber, BounceChamber)
-        and isinstance(chamber.heat_transfer, NoHeatTransfer)
+        if isinstance(chamber, BounceChamber) and isinstance(chamber.heat_transfer, NoHeatTransfer)
         for n in (Z_LN_PRESSURE, Z_LN_MOTORED)
     }
 
@@ -318,11 +317,12 @@ def repeats_itself(engine: Engine) -> bool:
     for chamber in engine.chambers:
         if not isinstance(getattr(chamber, "misfires", NoMisfires()), NoMisfires):
             return False
-    return not any(_asks_for_time(type(law)) for law in _laws_of_motion(engine))
+    kinds: list[Any] = [type(law) for law in _laws_of_motion(engine)]
+    return not any(_asks_for_time(kind) for kind in kinds)
 
 
 @lru_cache(maxsize=256)
-def _asks_for_time(law: type[Law]) -> bool:
+def _asks_for_time(law: Any) -> bool:
     """Whether a method of a law may look at the time in the motion it is shown.
 
     It does not if all it takes from the motion is fields by name, and none of them the time.

@@ -7,8 +7,6 @@ charge's burnt gas may have an m next to one.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from saleg.kernel import layout
@@ -46,13 +44,14 @@ def find_settled(chart: ReturnMap, most: int, tolerance: float) -> tuple[int, np
         Strokes integrated in all, verifying cycles included.
     """
     maps, strokes = 0.0, 0
-    for _ in range(MOST_JUMPS):
+    for jumps in range(MOST_JUMPS):
         code, found = chart.find(most, tolerance)
         maps += found[0]
         settled = code == layout.END_OF_TIME
         strokes += int(found[0] * chart.strokes_per_map) + (2 if settled else 0)
         found[0] = maps
-        if settled and distance_to_go(chart) <= NEAR * tolerance:
+        # What was slow once is known too badly from two residuals: there the next jump decides.
+        if settled and jumps == 0 and is_near(chart, NEAR * tolerance):
             return code, found, strokes
         if not settled and not (code == layout.NOT_FOUND and maps and found[1] <= SLOW):
             return code, found, strokes
@@ -65,23 +64,17 @@ def find_settled(chart: ReturnMap, most: int, tolerance: float) -> tuple[int, np
     return layout.NOT_FOUND, found, strokes
 
 
-def distance_to_go(chart: ReturnMap) -> float:
-    """Distance of a fixed point just found from where its states are heading.
+def is_near(chart: ReturnMap, distance: float) -> bool:
+    """Whether the fixed point just found is as near, by what two residuals say of slow states.
 
-    Entry by entry, from the residuals of the last map and of the cycle after it: their ratio is m
-    for a map of a whole cycle and m (m + 1) for one of half a cycle.
+    Entry by entry: from a residual a to a residual b that is m a, ``a b / (a - b)`` is left, by
+    Aitken. The second residual is that of a whole cycle, for a map of half a cycle ``m (m + 1) a``:
+    next to m = 1 that leaves ``3/2 a b / (2 a - b)``.
     """
-    vectors = chart.vectors
-    first, second = vectors[1].copy(), vectors[2] - vectors[0]
-    first[list(conserved_entries(chart.engine))] = 0.0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.where(first != 0.0, second / first, 0.0)
-    if chart.mirrored:
-        ratio = (0.5 * (np.sqrt(np.maximum(1.0 + 4.0 * ratio, 0.0)) - 1.0)) ** 2
-    away = np.abs(1.0 - ratio)
-    if away.min() == 0.0:
-        return math.inf
-    return float((np.abs(second) * (first != 0.0) / away).max())
+    first, second = chart.vectors[1], chart.vectors[2] - chart.vectors[0]
+    usual, share = (2.0, 1.5) if chart.mirrored else (1.0, 1.0)
+    far = share * np.abs(first * second) > distance * np.abs(usual * first - second)
+    return not far.any() or not set(np.flatnonzero(far)) - conserved_entries(chart.engine)
 
 
 def newton_step(chart: ReturnMap) -> np.ndarray | None:

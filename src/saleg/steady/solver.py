@@ -298,7 +298,8 @@ def starts(engine: Engine) -> Iterator[Start]:
 
     They begin on the side with more fuel, whichever that is.
     """
-    side = -1.0 if fuel_energy(engine.left) >= fuel_energy(engine.right) else 1.0
+    left_first = engine.is_mirrored or fuel_energy(engine.left) >= fuel_energy(engine.right)
+    side = -1.0 if left_first else 1.0
     depth = float(getattr(engine.alternator, "target_stroke", 0.9))
     yield CompressedCharge(position=side * min(max(depth, 0.5), 0.95), burning=1.0)
     usual = CompressedCharge()
