@@ -151,7 +151,7 @@ def steady_row(
     row["evaluations"] = float(found.evaluations)
     row["residual"] = found.residual
     if multipliers:
-        known = found.stability if found.found else None
+        known = found.stability if found.found and found.has_multipliers else None
         values = known.multipliers if known is not None else np.zeros(0)
         row["stable"] = known is not None and known.stable
         row["kind"] = "" if known is None else known.kind

@@ -26,7 +26,7 @@ from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.steady.return_map import (
     NoReturn,
     ReturnMap,
-    adiabatic_chambers,
+    conserved_entries,
     is_symmetric,
     repeats_itself,
 )
@@ -222,7 +222,7 @@ def branch(
     engine.replace(**{path: stop}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")
-    if adiabatic_chambers(engine):
+    if conserved_entries(engine):
         raise NoBranch(
             "a sealed chamber without heat transfer keeps the entropy it is given, so its orbit is "
             "not a single one: give the bounce chamber a heat-transfer law"

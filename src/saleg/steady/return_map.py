@@ -5,6 +5,7 @@ from __future__ import annotations
 import dis
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from types import CodeType, FunctionType
@@ -14,7 +15,7 @@ import numpy as np
 
 from saleg.compiler.compose import Kernel, kernel_for, needs_motored_pressure, parameters
 from saleg.compiler.controllers import nobody
-from saleg.engine import BounceChamber, Engine
+from saleg.engine import BounceChamber, Chamber, Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.orbit import (
     CYCLE,
@@ -29,7 +30,7 @@ from saleg.kernel.orbit import (
     write_vector,
 )
 from saleg.laws import NoHeatTransfer, NoMisfires
-from saleg.laws.arguments import Motion
+from saleg.laws.arguments import Charge, Gas, Motion
 from saleg.laws.base import Alternator, Law
 from saleg.simulation.initial_state import State
 from saleg.simulation.integration import STEPS_PER_CALL, Settings, options_record, work_space
@@ -46,6 +47,9 @@ PROBES = tuple(
         strict=True,
     )
 )
+#: Hot gas in motion and its charge, to which every wall that takes heat has a coefficient.
+PROBE_GAS = Gas(30e5, 900.0, 1e-4, 20e5, 0.03, 0.06, 8.0, 450.0, 0.0, -5.0)
+PROBE_CHARGE = Charge(1e-4, 0.0, 1e-4, 0.0, 0.0, 1e5, 300.0, 4e-4, 3e-4)
 #: Methods of laws of motion that are shown a stroke, not a motion.
 SHOWN_NO_MOTION = ("at_dead_centre",)
 #: How Python takes a field by name, and the fields of a motion that are not the time.
@@ -295,21 +299,27 @@ def constant_entries(engine: Engine) -> set[int]:
 
 
 def conserved_entries(engine: Engine) -> set[int]:
-    """Entries of the vector that keep the entropy of sealed chambers without heat transfer."""
+    """Entries of the vector that hold the entropy of sealed chambers without heat transfer."""
+    return sealed_entries(engine, [is_adiabatic(chamber) for chamber in engine.chambers])
+
+
+def sealed_entries(engine: Engine, wanted: Sequence[bool] = (True, True)) -> set[int]:
+    """Entries of the vector for the pressures in those chambers that never open."""
+    entries = [Z_LN_PRESSURE] + [Z_LN_MOTORED] * needs_motored_pressure(engine)
     return {
         Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
         for side, chamber in enumerate(engine.chambers)
-        if isinstance(chamber, BounceChamber) and isinstance(chamber.heat_transfer, NoHeatTransfer)
-        for n in (Z_LN_PRESSURE, Z_LN_MOTORED)
+        if wanted[side] and isinstance(chamber, BounceChamber)
+        for n in entries
     }
 
 
-def adiabatic_chambers(engine: Engine) -> int:
-    """Number of sealed chambers without heat transfer: each keeps its entropy for ever."""
-    return sum(
-        isinstance(chamber, BounceChamber) and isinstance(chamber.heat_transfer, NoHeatTransfer)
-        for chamber in engine.chambers
-    )
+def is_adiabatic(chamber: Chamber) -> bool:
+    """Whether a chamber is sealed and without heat transfer, so that it keeps its entropy."""
+    if not isinstance(chamber, BounceChamber):
+        return False
+    law = chamber.heat_transfer
+    return isinstance(law, NoHeatTransfer) or law.coefficient(PROBE_GAS, PROBE_CHARGE) == 0.0
 
 
 def repeats_itself(engine: Engine) -> bool:

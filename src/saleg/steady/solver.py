@@ -158,7 +158,17 @@ class SteadyState:
         """
         if self.replay is None:
             raise NoSteadyState(f"no steady state to differentiate: {self.message}")
+        if not self.has_multipliers:
+            raise NoSteadyState(f"no return map to differentiate: {self.message}")
         return stability(self.replay, float(self.strokes["duration"].sum()))
+
+    @property
+    def has_multipliers(self) -> bool:
+        """Whether there is a steady state and a return map to differentiate there.
+
+        An engine with a law of time may repeat its cycles but has no such map.
+        """
+        return self.replay is not None and repeats_itself(self.engine)
 
     @property
     def multipliers(self) -> np.ndarray:
@@ -167,8 +177,8 @@ class SteadyState:
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances of the cycle die away; False without a steady state."""
-        return self.found and self.stability.stable
+        """Whether small disturbances of the cycle die away; False where that is not known."""
+        return self.found and self.has_multipliers and self.stability.stable
 
     def __str__(self) -> str:
         from saleg.simulation.report import describe_performance
