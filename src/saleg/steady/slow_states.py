@@ -7,11 +7,15 @@ charge's burnt gas may have an m next to one.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from saleg.kernel import layout
+from saleg.kernel.events import pressure_and_temperature
+from saleg.laws.base import GasProperties
 from saleg.simulation.initial_state import State
-from saleg.steady.return_map import NoReturn, ReturnMap, conserved_entries
+from saleg.steady.return_map import NoReturn, ReturnMap, conserved_entries, is_adiabatic
 from saleg.steady.stability import FINE
 
 #: Distance from the fixed point, in the numbers of order one a state is written in, within which a
@@ -43,24 +47,26 @@ def find_settled(chart: ReturnMap, most: int, tolerance: float) -> tuple[int, np
     strokes : int
         Strokes integrated in all, verifying cycles included.
     """
-    maps, strokes = 0.0, 0
-    for jumps in range(MOST_JUMPS):
+    maps, strokes, slow = 0.0, 0, False
+    begin = chart.state.copy()
+    for _ in range(MOST_JUMPS):
         code, found = chart.find(most, tolerance)
         maps += found[0]
         settled = code == layout.END_OF_TIME
         strokes += int(found[0] * chart.strokes_per_map) + (2 if settled else 0)
         found[0] = maps
-        # What was slow once is known too badly from two residuals: there the next jump decides.
-        if settled and jumps == 0 and is_near(chart, NEAR * tolerance):
-            return code, found, strokes
         if not settled and not (code == layout.NOT_FOUND and maps and found[1] <= SLOW):
             return code, found, strokes
-        jump = newton_step(chart)
-        if settled and jump is not None and np.abs(jump).max() <= NEAR * tolerance:
+        # What was slow once is known too badly from two residuals: there the next jump decides.
+        if slow or not settled or not is_near(chart, NEAR * tolerance):
+            slow, jump = True, newton_step(chart)
+            if jump is None:
+                break
+            if not settled or np.abs(jump).max() > NEAR * tolerance:
+                chart.jump(jump)
+                continue
+        if not give_back_entropy(chart, begin, NEAR * tolerance):
             return code, found, strokes
-        if jump is None:
-            break
-        chart.jump(jump)
     return layout.NOT_FOUND, found, strokes
 
 
@@ -95,3 +101,42 @@ def newton_step(chart: ReturnMap) -> np.ndarray | None:
     jump = np.zeros(len(z))
     jump[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], residual[free], rcond=None)[0]
     return jump
+
+
+def give_back_entropy(chart: ReturnMap, begin: State, tolerance: float) -> bool:
+    """Give sealed adiabatic chambers the entropy they began with; whether that changed anything.
+
+    Every entropy has an orbit of its own: extrapolation may not choose one.
+    """
+    changed = False
+    for side, chamber in enumerate(chart.engine.chambers):
+        if not is_adiabatic(chamber):
+            continue
+        ends = [state_of_gas(state, side) for state in (begin, chart.state)]
+        gained = entropy_rise(chamber.gas_properties, *ends)  # type: ignore[attr-defined]
+        if abs(gained) > tolerance:
+            gamma = chamber.gas_properties.gamma(ends[1][0])  # type: ignore[attr-defined]
+            chart.state.y[layout.THETA + side] -= (gamma - 1.0) * gained
+            changed = True
+    return changed
+
+
+def state_of_gas(state: State, side: int) -> tuple[float, float]:
+    """Temperature [K] and volume [m^3] of the gas in a closed chamber."""
+    _, C = state.records
+    p, T = pressure_and_temperature(C, side, state.y)
+    return float(T), float(C[side].mass * C[side].gas_constant * T / p)
+
+
+def entropy_rise(
+    gas: GasProperties, before: tuple[float, float], after: tuple[float, float]
+) -> float:
+    """Rise of the entropy of a charge from one temperature and volume to another, over m R [-]."""
+    (cold, small), (hot, large) = before, after
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+    middle, half = 0.5 * math.log(hot * cold), 0.5 * math.log(hot / cold)
+    heat = sum(
+        weight / (gas.gamma(math.exp(middle + half * node)) - 1.0)
+        for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True)
+    )
+    return half * heat + math.log(large / small)
