@@ -146,7 +146,7 @@ def _quick(
     """Orbit from the standard starts, or the word that they lead to none."""
     charts = _charts(design, guess, rtol, mirrored, near, QUICK_STEPS)
     ways = zip(charts, repeat(_set_law))
-    found, spent = _first_orbit(design, ways, rtol, Spent(), QUICK_MAPS)
+    found, spent = _first_orbit(design, ways, rtol, Spent(), quick=True)
     if found is not None:
         return _closed_message(found)
     return _nothing(design, guess, spent, "no orbit from the standard starts")
@@ -229,11 +229,11 @@ def _first_orbit(
     ways: Iterable[tuple[ReturnMap, Way]],
     rtol: float,
     spent: Spent,
-    most: int = MOST_MAPS,
+    quick: bool = False,
 ) -> tuple[DesignedState | None, Spent]:
     """The first orbit some return maps lead to, and the work done so far."""
     for chart, way in ways:
-        orbit = _closed(design, chart, rtol, way, most)
+        orbit = _closed(design, chart, rtol, way, quick)
         spent = Spent(spent.half_cycles + orbit.half_cycles, spent.evaluations + chart.evaluations)
         if orbit.found:
             steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
@@ -330,12 +330,13 @@ class _Orbit(NamedTuple):
     operation: Operation
 
 
-def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way, most: int) -> _Orbit:
+def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way, quick: bool) -> _Orbit:
     """Find an orbit whose mass is that of its components; the chart then holds its engine too."""
     spent, operation = 0, Operation.guess(chart.engine)
+    most = QUICK_MAPS if quick else MOST_MAPS
     for _ in range(MOST_ORBITS):
         way(chart.state, design, operation)
-        code, found, strokes = find_settled(chart, most, RESIDUAL * rtol)
+        code, found, strokes = find_settled(chart, most, RESIDUAL * rtol, patient=not quick)
         spent += strokes
         if code != layout.END_OF_TIME:
             break

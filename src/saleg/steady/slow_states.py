@@ -22,12 +22,14 @@ from saleg.steady.stability import FINE
 #: state is steady, over the tolerance of the integrator.
 NEAR = 100.0
 #: Residual up to which what did not settle may only be slow.
-SLOW = 1e-2
+SLOW = 0.1
 #: Jumps of Newton's method.
 MOST_JUMPS = 30
 
 
-def find_settled(chart: ReturnMap, most: int, tolerance: float) -> tuple[int, np.ndarray, int]:
+def find_settled(
+    chart: ReturnMap, most: int, tolerance: float, patient: bool = True
+) -> tuple[int, np.ndarray, int]:
     """Look for a fixed point that is near in all states, the slow ones included.
 
     Parameters
@@ -37,26 +39,29 @@ def find_settled(chart: ReturnMap, most: int, tolerance: float) -> tuple[int, np
         Maps between two jumps.
     tolerance : float
         Residual of the map.
+    patient : bool
+        Whether to go on from what has not settled but may only be slow.
 
     Returns
     -------
     code : int
         Why it ended, as a code of the layout.
     found : ndarray
-        Maps taken in all, residual of the last one, residual of the whole cycle after it.
+        Maps taken at last, residual of the last one, residual of the whole cycle after it.
     strokes : int
         Strokes integrated in all, verifying cycles included.
     """
-    maps, strokes, slow = 0.0, 0, False
-    begin = chart.state.copy()
+    strokes, slow = 0, False
+    begin, smallest = chart.state.copy(), SLOW
     for _ in range(MOST_JUMPS):
         code, found = chart.find(most, tolerance)
-        maps += found[0]
         settled = code == layout.END_OF_TIME
         strokes += int(found[0] * chart.strokes_per_map) + (2 if settled else 0)
-        found[0] = maps
-        if not settled and not (code == layout.NOT_FOUND and maps and found[1] <= SLOW):
-            return code, found, strokes
+        if not settled:
+            nearer = code == layout.NOT_FOUND and found[0] > 0.0 and found[1] < smallest
+            if not (patient and nearer):
+                return code, found, strokes
+            smallest = found[1]
         # What was slow once is known too badly from two residuals: there the next jump decides.
         if slow or not settled or not is_near(chart, NEAR * tolerance):
             slow, jump = True, newton_step(chart)

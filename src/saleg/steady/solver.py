@@ -291,7 +291,7 @@ def _solved(engine: Engine, rtol: float, most: int, quick: bool) -> SteadyState:
         state = prepare(replace(engine, start=start))
         most_steps = QUICK_STEPS if quick else STEPS_PER_CALL
         chart = ReturnMap.of(engine, state, rtol, mirrored, most_steps)
-        code, found, strokes = find_settled(chart, most, RESIDUAL * rtol)
+        code, found, strokes = find_settled(chart, most, RESIDUAL * rtol, not quick)
         spent += strokes
         evaluations += chart.evaluations
         if mirrored and code == layout.END_OF_TIME and found[2] > MIRROR_MISSED * rtol:
