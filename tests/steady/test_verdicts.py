@@ -215,7 +215,7 @@ def scaled(engine, length, duration):
 
     Pressures, temperatures and all ratios stay. The heat transfer must not depend on speed.
     """
-    law = engine.left.heat_transfer
+    law, burning = engine.left.heat_transfer, engine.left.heat_release.combustion_duration
     return engine.replace(
         **{
             "bore": engine.get("bore") * length,
@@ -225,7 +225,7 @@ def scaled(engine, length, duration):
             "spring.stiffness": engine.get("spring.stiffness") * length,
             "alternator.load_constant": engine.get("alternator.load_constant") * length * duration,
             "friction.coefficient": engine.get("friction.coefficient") * length * duration,
-            "heat_release.combustion_duration": engine.get("heat_release.combustion_duration")
+            "heat_release.combustion_duration": burning * duration,
             * duration,
             "ignition.k": engine.left.ignition.k / duration,
             "heat_transfer.a": law.a * length / duration * length ** (-3.0 * law.b),
