@@ -226,7 +226,6 @@ def scaled(engine, length, duration):
             "alternator.load_constant": engine.get("alternator.load_constant") * length * duration,
             "friction.coefficient": engine.get("friction.coefficient") * length * duration,
             "heat_release.combustion_duration": burning * duration,
-            * duration,
             "ignition.k": engine.left.ignition.k / duration,
             "heat_transfer.a": law.a * length / duration * length ** (-3.0 * law.b),
         }
