@@ -325,3 +325,11 @@ def test_all_that_an_adiabatic_chamber_conserves_is_no_instability(base, share):
     assert found.stability.kind == "stable"
     assert abs(found.multipliers[0]) < 0.5
     assert saleg.simulate(engine, 2.0).status is Status.STEADY
+
+
+def test_a_folder_of_quick_results_is_not_continued_by_a_thorough_sweep(tmp_path):
+    points = saleg.sweep.grid({"bore": [0.060, 0.064], "port_location": [0.7]})
+    table = saleg.sweep.run(points, folder=tmp_path / "quick", effort=Effort.QUICK)
+    assert list(table.status) == ["not found", "not found"]
+    with pytest.raises(saleg.SalegError):
+        saleg.sweep.run(points, folder=tmp_path / "quick")
