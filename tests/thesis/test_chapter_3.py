@@ -1,8 +1,56 @@
 """Base case and numerical studies beside Tables 1 to 5."""
 
-from printed import within
-from saleg.plotting.style import new_figure
-from saleg.thesis import chapter_3
+import pytest
+
+import saleg
+from printed import check, within
+from saleg.plotting import new_figure
+from saleg.thesis import beside, chapter_3
+
+
+def test_base_case_against_the_finest_rows(base_run):
+    """Table 2 at 0.5 us and the base row of Table 5; power is high as the fuel energy is."""
+    assert base_run.status is saleg.Status.STEADY
+    figures = ("stroke", "compression_ratio", "frequency", "peak_pressure", "efficiency")
+    check(base_run.performance, beside.FINEST, dict.fromkeys(figures, 0.015) | {"power": 0.04})
+
+
+def test_base_case_against_table_1(base_run):
+    """Table 1 was computed at 5 us; its peak and efficiency carry that step's error (Table 2)."""
+    deviations = {
+        "stroke": 0.005,
+        "frequency": 0.005,
+        "power": 0.01,
+        "mean_alternator_force": 0.01,
+        "charge_mass": 0.015,
+        "peak_acceleration": 0.02,
+        "compression_ratio": 0.03,
+        "peak_pressure": 0.03,
+        "fuel_energy_per_cycle": 0.04,
+        "efficiency": 0.045,
+    }
+    assert set(deviations) == set(beside.TABLE_1.figures)
+    check(base_run.performance, beside.TABLE_1, deviations)
+
+
+def test_friction_of_eq_40_is_that_of_the_base_case(base, base_run):
+    run = saleg.simulate(base.replace(friction=saleg.laws.BlairViscousFriction(13.7)), 1.5)
+    assert run.cycles["friction_coefficient"].iloc[-1] == pytest.approx(12.4, rel=0.005)
+    assert run.energy.friction / run.energy.fuel == pytest.approx(0.06, rel=0.02)
+
+
+def test_shares_of_the_fuel_energy(base_run):
+    """Figure 41: more than half of the fuel energy is lost as heat; friction takes about 6 %."""
+    energy = base_run.energy
+    assert 0.5 < (energy.heat_transfer + energy.exhaust) / energy.fuel < 0.6
+    assert energy.friction / energy.fuel == pytest.approx(0.06, abs=0.003)
+    assert energy.unburnt / energy.fuel == pytest.approx(0.05, abs=0.01)
+
+
+def test_regulated_weight_is_eq_59(base_run):
+    last = base_run.cycles.iloc[-1]
+    weight = 1.0 - 7.5 * (0.18 - last["stroke"]) / 0.1
+    assert last["load_weight"] == pytest.approx(weight, abs=1e-5)
 
 
 def test_base_case_is_reported_beside_tables_1_2_and_5():

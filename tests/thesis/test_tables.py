@@ -110,11 +110,3 @@ def test_table_11_holds_two_designs_in_another_order():
     best = rows[rows.index.str.endswith("best")]["power"]
     second = rows[rows.index.str.endswith("second")]["power"]
     assert (best.to_numpy() != second.to_numpy()).all()
-
-
-def test_a_run_stands_beside_its_table(base_run):
-    shown = tables.comparison(base_run)
-    assert "Table 1 (5 us)" in shown
-    assert "180.7" in shown
-    changed = saleg.simulate(base_run.engine.replace(bore=0.06), 0.2)
-    assert tables.comparison(changed) is None

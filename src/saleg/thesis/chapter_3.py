@@ -8,7 +8,8 @@ from saleg import studies
 from saleg.machines import thesis_base
 from saleg.plotting import studies as figures
 from saleg.simulation import Run, simulate
-from saleg.thesis.tables import TABLE_2, TABLE_3, TABLE_4, TABLE_5, comparison
+from saleg.thesis.beside import comparison
+from saleg.thesis.tables import TABLE_2, TABLE_3, TABLE_4, TABLE_5
 
 if TYPE_CHECKING:
     import pandas as pd
