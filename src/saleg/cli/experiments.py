@@ -10,13 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saleg import control
-from saleg.control.experiments import (
-    EQUIVALENCE_RATIOS,
-    INTAKE_TEMPERATURES,
-    RECOVERED,
-    SETTLING,
-)
+from saleg.control.experiments import RECOVERED, SETTLING
 from saleg.engine import Engine
+from saleg.engine.controller import Controller
+from saleg.laws.control.motor import ResonanceSearch
 from saleg.simulation.run import Run
 from saleg.steady.solver import steady_state
 
@@ -31,6 +28,8 @@ AT_AMPLITUDE = 66.0
 BASE_FREQUENCIES = (30.0, 35.0, 38.0, 40.0, 50.0)
 #: When a demand changes, when a ramp is over [s]; by how much power falls [W] (Fig. 100 to 103).
 CHANGES, RAMP_ENDS, STEP, RAMP = 2.0, 6.0, 2000.0, 3000.0
+#: Phases of the motor; the force sin(2 pi f t) meets the times Fig. 97 gives, the integral does not.
+PHASES = {"literal": 1.0, "integrated": 0.0}
 #: When the fuel is cut [s], and the time shown before and after a misfire [s].
 CUT, BEFORE, AFTER = 1.5, 0.1, 0.6
 #: Numbers of strokes without fuel.
@@ -171,14 +170,23 @@ def _report_resonance(done: Done) -> list[Line]:
 # Start-up (Fig. 97 to 99)
 
 
-def _start_up(engine: Engine, base_frequency: float = 30.0, duration: float = 3.5) -> Done:
-    return Done(run=control.start_up(engine, base_frequency, duration=duration))
+def _search(phase: str) -> Controller:
+    """The dissertation's controller with a phase of its motor."""
+    return Controller(motor_control=ResonanceSearch(literal_phase=PHASES[phase]))
+
+
+def _start_up(
+    engine: Engine, base_frequency: float = 30.0, duration: float = 3.5, phase: str = "literal"
+) -> Done:
+    run = control.start_up(engine, base_frequency, duration=duration, controller=_search(phase))
+    return Done(run=run)
 
 
 def _report_start_up(done: Done) -> list[Line]:
     run, fired = done.one, control.fired_at(done.one)
-    reached = run.performance
+    reached, opened = run.performance, control.ports_opened_at(run)
     return [
+        Line("ports first open", _seconds(opened), "near 1 s, from 30 Hz"),
         Line("fired", _seconds(fired), "just before 2 s, from 30 Hz"),
         Line("settled", _seconds(_settled(run)), "under 2.5 s"),
         Line("motor came back", f"{control.motor_returns(run)} times"),
@@ -188,10 +196,10 @@ def _report_start_up(done: Done) -> list[Line]:
     ]
 
 
-def _start_ups(engine: Engine, duration: float = 3.5) -> Done:
+def _start_ups(engine: Engine, duration: float = 3.5, phase: str = "literal") -> Done:
     import pandas as pd
 
-    runs = {f: control.start_up(engine, f, duration=duration) for f in BASE_FREQUENCIES}
+    runs = {f: _start_up(engine, f, duration, phase).one for f in BASE_FREQUENCIES}
     table = pd.DataFrame(
         {
             "base_frequency": list(runs),
@@ -269,13 +277,13 @@ def _report_demand(efficiency: str, meets: str) -> Callable[[Done], list[Line]]:
 
 
 def _intake_map(engine: Engine) -> Done:
-    known = control.operating_map(engine, "intake.temperature", INTAKE_TEMPERATURES)
+    known = control.intake_map(engine)
     return Done(table=known.table, also={"map": known})
 
 
 def _fuel_map(engine: Engine) -> Done:
     warm = engine.replace(**{"intake.temperature": WARM})
-    known = control.operating_map(warm, "equivalence_ratio", EQUIVALENCE_RATIOS)
+    known = control.fuel_map(warm)
     return Done(table=known.table, also={"map": known})
 
 
@@ -296,7 +304,9 @@ def _report_map(said: str) -> Callable[[Done], list[Line]]:
 
 
 def _map(engine: Engine) -> Done:
-    return Done(table=control.operating_grid(engine, INTAKE_TEMPERATURES, EQUIVALENCE_RATIOS))
+    maps = control.intake_map(engine), control.fuel_map(engine)
+    temperatures, ratios = (known.table[known.path].tolist()[::2] for known in maps)
+    return Done(table=control.operating_grid(engine, temperatures, ratios))
 
 
 def _report_grid(done: Done) -> list[Line]:
@@ -406,13 +416,14 @@ EXPERIMENTS = {
             "approach.png": lambda draw, done: draw.approach(done.run),
         },
         _report_start_up,
-        ("duration", "base_frequency"),
+        ("duration", "base_frequency", "phase"),
     ),
     "start-ups": Experiment(
         "start from several base frequencies (Fig. 99)",
         _start_ups,
         {"start_ups.png": lambda draw, done: draw.start_ups(done.also["runs"])},
         _report_start_ups,
+        ("duration", "phase"),
         is_run=False,
     ),
     "load-step": Experiment(
@@ -455,7 +466,7 @@ EXPERIMENTS = {
     ),
     "intake-ramp": Experiment(
         "let the intake temperature answer a ramp in demand (Fig. 103)",
-        _follow(control.demand_by_intake, _ramps, 8.0),
+        _follow(control.demand_by_intake, _ramps, 10.0),
         DRAW_DEMAND,
         _report_demand("15 %", "follows until outside the map"),
         DEMANDS,
