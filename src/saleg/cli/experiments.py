@@ -28,7 +28,7 @@ AT_AMPLITUDE = 66.0
 BASE_FREQUENCIES = (30.0, 35.0, 38.0, 40.0, 50.0)
 #: When a demand changes, when a ramp is over [s]; by how much power falls [W] (Fig. 100 to 103).
 CHANGES, RAMP_ENDS, STEP, RAMP = 2.0, 6.0, 2000.0, 3000.0
-#: Phases of the motor; the force sin(2 pi f t) meets the times Fig. 97 gives, the integral does not.
+#: Phases of the motor; the force sin(2 pi f t) keeps the dates of Fig. 97, the integral does not.
 PHASES = {"literal": 1.0, "integrated": 0.0}
 #: When the fuel is cut [s], and the time shown before and after a misfire [s].
 CUT, BEFORE, AFTER = 1.5, 0.1, 0.6

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import count, islice
 from dataclasses import dataclass
+from itertools import count, islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -169,9 +169,10 @@ def _to_the_end(
     """Map in even steps to where the stable orbits end; beyond its range a value is invalid."""
     import pandas as pd
 
-    values, parts = count(), []
+    parts: list[pd.DataFrame] = []
+    steps = count()
     while not parts or _stable(parts[-1]).all():
-        some = [begin + step * n for n in islice(values, AT_ONCE)]
+        some = [begin + step * n for n in islice(steps, AT_ONCE)]
         parts.append(operating_map(engine, path, some, executor=executor).table)
     table = pd.concat(parts, ignore_index=True)
     table.attrs["units"] = parts[0].attrs["units"]
