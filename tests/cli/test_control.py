@@ -58,7 +58,9 @@ def test_start_up_stands_beside_the_dissertation(capsys):
     assert main(["control", *words]) == 0
     shown = capsys.readouterr().out
     assert "dissertation" in shown
-    assert line(shown, "fired")[1] == "0.487"
+    assert line(shown, "fired")[1] == "0.496"
+    assert main(["control", *words, "--phase", "integrated"]) == 0
+    assert line(capsys.readouterr().out, "fired")[1] == "0.487"
     assert line(shown, "compression ratio")[2:] == ["17.87", "17.9"]
     assert main(["control", *words, "--set", "equivalence_ratio=0.6"]) == 0
     assert "dissertation" not in capsys.readouterr().out
@@ -68,7 +70,7 @@ def test_start_ups(capsys, tmp_path):
     assert main(["control", "start-ups", "--out", str(tmp_path / "out")]) == 0
     shown = capsys.readouterr().out
     times = {f: line(shown, f"fired from {f} Hz")[4] for f in (30, 35, 38, 40, 50)}
-    assert times == {30: "2.251", 35: "1.202", 38: "0.487", 40: "never", 50: "never"}
+    assert times == {30: "1.961", 35: "1.075", 38: "0.496", 40: "never", 50: "never"}
     table = pd.read_csv(tmp_path / "out" / "results.csv")
     assert table["base_frequency [Hz]"].tolist() == [30.0, 35.0, 38.0, 40.0, 50.0]
     assert table["fired_at [s]"].isna().tolist() == [False] * 3 + [True] * 2
@@ -121,6 +123,7 @@ def test_a_run_too_short_for_a_cycle_has_nothing_to_report(capsys, tmp_path):
         (["overload", "--no-motor"], "--no-motor does not belong to overload"),
         (["fuel-cut", "--demand", "x.csv"], "--demand does not belong to fuel-cut"),
         (["map", "--duration", "2"], "--duration does not belong to map"),
+        (["misfire", "--phase", "literal"], "--phase does not belong to misfire"),
         (["map", "--animate", "a.gif"], "--animate needs a single run, and map is none"),
         (["misfire", "--animate", "a.mp4"], "must end in .gif or .html"),
         (["misfire", "thesis-bass"], "'thesis-base'"),

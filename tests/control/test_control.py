@@ -49,7 +49,9 @@ def started(transient):
     return control.start_up(transient, 38.0, duration=2.0)
 
 
-# --- what the dissertation shows
+# --- what the dissertation shows: numbers are those it prints, deviations are stated
+
+LITERAL = Controller(motor_control=ResonanceSearch(literal_phase=1.0))
 
 
 def test_the_started_engine_runs_as_table_13_says(started):
@@ -57,30 +59,36 @@ def test_the_started_engine_runs_as_table_13_says(started):
     check_table_13(started.performance)
 
 
-@pytest.mark.parametrize(("base", "seen"), [(30.0, 2.25), (35.0, 1.20), (38.0, 0.50)])
-def test_start_up_passes_the_threshold_in_time(transient, base, seen):
-    """Fig. 99, and steady within half a second."""
-    run = control.start_up(transient, base, duration=seen + 0.7)
+def test_start_up_keeps_the_dates_of_figure_97(transient):
+    """Ports open "near the one second mark", it fires "just prior to two", runs before 2.5 s."""
+    run = control.start_up(transient, 30.0, controller=LITERAL)
+    assert control.ports_opened_at(run) == pytest.approx(1.0, abs=0.1)
     fired = control.fired_at(run)
-    assert fired == pytest.approx(seen, abs=3 * HALF_CYCLE)
+    assert 1.9 < fired < 2.0
     table = run.dead_centres
     assert table.motoring[table.t <= fired].all()
-    late = table[table.t > fired + 0.5]
+    late = table[table.t > 2.5]
     assert not late.motoring.any()
     assert np.ptp(late.compression_ratio) < 0.01
-    assert late.compression_ratio.mean() == pytest.approx(17.9, rel=0.01)
+    assert late.compression_ratio.mean() == pytest.approx(17.9, rel=0.01)  # Table 13
 
 
-def test_start_up_with_the_literal_sine(transient):
-    """The sine of the present frequency times all of the time passes just before two seconds."""
-    search = ResonanceSearch(literal_phase=1.0)
-    run = control.start_up(transient, 30.0, controller=Controller(motor_control=search))
-    assert control.fired_at(run) == pytest.approx(1.96, abs=3 * HALF_CYCLE)
+@pytest.mark.parametrize("controller", [LITERAL, Controller()], ids=["literal", "integrated"])
+def test_start_up_is_faster_from_closer_to_resonance(transient, controller):
+    """Fig. 99, with both readings of the motor's phase."""
+    fired = [
+        control.fired_at(control.start_up(transient, base, controller=controller))
+        for base in (30.0, 35.0, 38.0)
+    ]
+    assert fired == sorted(fired, reverse=True)
+    assert not any(map(math.isnan, fired))
 
 
+@pytest.mark.parametrize("controller", [LITERAL, Controller()], ids=["literal", "integrated"])
 @pytest.mark.parametrize("base", [40.0, 50.0])
-def test_start_up_from_beyond_resonance_never_succeeds(transient, base):
-    run = control.start_up(transient, base, duration=6.0)
+def test_start_up_from_beyond_resonance_never_succeeds(transient, base, controller):
+    """Fig. 99."""
+    run = control.start_up(transient, base, duration=6.0, controller=controller)
     assert math.isnan(control.fired_at(run))
     assert run.status is Status.COMPLETED
     assert "motored" in run.message
@@ -117,17 +125,24 @@ def test_the_fuel_is_cut_and_the_engine_rings_down(transient):
     assert (after.load_weight == 0.0).all()  # the regulator lets go
     assert (np.diff(after.stroke[after.stroke > 0.5e-3]) < 0.0).mean() > 0.95
     assert after.stroke.iloc[-1] < 0.4 * after.stroke.iloc[0]
-    first = table[table.t > 1.5].compression_ratio.iloc[:4].tolist()
-    assert first[2:4] == [pytest.approx(13.5, abs=0.3), pytest.approx(9.6, abs=0.3)]
+    # "The fall-off of compression is very steep": beyond the threshold of 12 within two cycles.
+    assert table[table.t > 1.5].compression_ratio.iloc[:4].min() < 12.0
+
+
+def test_a_missed_stroke_is_recovered_from(transient):
+    """Fig. 108: below the threshold of 12 the motor comes back, and within 0.5 s all is well."""
+    table = control.misfires(transient, [1]).set_index("motor")
+    assert table.least_compression_ratio[True] < 12.0
+    assert table.motor_returns[True] > 0
+    assert table.recovery_time[True] < 0.5
 
 
 def test_how_many_strokes_without_fuel_are_survived(transient):
+    """Finding: with the motor all that were tried, without it one; the text tries one."""
     table = control.misfires(transient, [1, 2, 3, 10])
     with_motor, without = table[table.motor], table[~table.motor]
     assert with_motor.survives.all()
-    assert (with_motor.recovery_time < 0.5).all()  # Fig. 108
     assert without.survives.tolist() == [True, False, False, False]
-    assert without.least_compression_ratio.iloc[0] == pytest.approx(11.8, abs=0.3)
     assert (without.motor_returns == 0).all()
 
 
@@ -138,13 +153,13 @@ def test_nothing_recovers_from_what_has_not_happened(transient, started):
 
 
 def test_an_overloaded_engine_misfires_and_fires_late(transient):
-    """Fig. 107: misfire, ring-down, and a trapped charge that lights once the walls heat it."""
+    """Fig. 107: misfire near 3 s as the compression ratio falls below ten; a late ignition."""
     run = control.overload(transient)
-    first = run.events.t[(run.events.event == "misfire") & (run.events.t > 2.0)].iloc[0]
-    assert 3.0 < first < 4.0
-    before = run.dead_centres[(run.dead_centres.t > 2.0) & (run.dead_centres.t < first)]
-    assert before.compression_ratio.iloc[0] > 17.0
-    assert before.compression_ratio.iloc[-2:].min() < 12.5
+    first = control.first_misfire(run)
+    assert first == pytest.approx(3.0, rel=0.1)
+    table = run.dead_centres.set_index("t").compression_ratio
+    assert table[2.0:first].iloc[0] == pytest.approx(17.9, rel=0.02)
+    assert table[2.0:first].iloc[-1] < 10.0
     late = run.events[(run.events.event == "ignition") & (run.events.t > first + 1.0)]
     assert len(late)
     none = control.overload(transient, late_ignition=False)
@@ -152,7 +167,7 @@ def test_an_overloaded_engine_misfires_and_fires_late(transient):
 
 
 def test_load_alone_cannot_follow_a_step_down(transient):
-    """Fig. 100, over a grid of gains: with an integral part the engine runs away."""
+    """Fig. 100: it grows unstable; finding: not without an integral part, but misses the demand."""
     power = saleg.steady_state(transient).performance.power
     step = Demand.step(2.0, power, power - 2000.0)
     settled = []
@@ -171,17 +186,39 @@ def test_load_alone_cannot_follow_a_step_down(transient):
 
 
 def test_intake_temperature_follows_a_step_down(transient):
-    """Fig. 102: the demand is met, at the price of efficiency."""
-    known = control.operating_map(transient, "intake.temperature", np.linspace(263, 370, 12))
-    run = control.demand_by_intake(transient, Demand.step(2.0, 3905.0, 1905.0), known=known)
+    """Fig. 102: the demand is met; the 22 % and the 40 K of the text are not."""
+    run = control.demand_by_intake(transient, Demand.step(2.0, 3905.0, 1905.0))
     assert run.status is Status.STEADY
     assert run.performance.power == pytest.approx(1905.0, rel=0.01)
-    assert 0.2 < run.performance.efficiency < 0.27  # 22 % there
-    ramp = control.demand_by_intake(
-        transient, Demand.ramp(2.0, 6.0, 3905.0, 905.0), known=known, duration=8.0
-    )
-    assert ramp.dead_centres.intake_temperature.iloc[-1] > 369.9
-    assert ramp.performance.power > 1700.0  # as far as the map goes, and no further
+    assert run.performance.efficiency == pytest.approx(0.22, abs=0.04)
+    raised = run.dead_centres.intake_temperature.iloc[-1] - 263.0
+    assert 2.0 * 40.0 < raised < 2.5 * 40.0
+
+
+def test_intake_temperature_follows_a_ramp_to_low_load(transient):
+    """Fig. 103: efficiency "is reduced to 15 % as compared to the 38 % at full throttle"."""
+    ramp = Demand.ramp(2.0, 6.0, 3905.0, 905.0)
+    run = control.demand_by_intake(transient, ramp, duration=10.0)
+    assert run.status is Status.STEADY
+    assert run.performance.power == pytest.approx(905.0, rel=0.01)
+    assert run.performance.efficiency == pytest.approx(0.15, abs=0.005)
+
+
+@pytest.mark.parametrize("machine", ["transient", "base"])
+def test_maps_end_where_their_orbits_do(machine, request):
+    """One step beyond the last value no stable orbit delivers power."""
+    engine = request.getfixturevalue(machine)
+    for known, step in ((control.intake_map(engine), 10.0), (control.fuel_map(engine), -0.025)):
+        ends = known.table[known.path].iloc[[0, -2, -1]].tolist()
+        assert ends[0] == engine.get(known.path)
+        assert ends[2] == pytest.approx(ends[1] + step)
+        assert {known.lowest, known.highest} == {ends[0], ends[1]}
+        last = saleg.steady_state(engine.replace(**{known.path: ends[1]}))
+        assert last.status is Status.STEADY
+        assert last.stable
+        assert 0.0 < last.performance.power < 0.1 * max(known.powers)
+        beyond = saleg.steady_state(engine.replace(**{known.path: ends[2]}))
+        assert beyond.status is not Status.STEADY
 
 
 def test_fuel_follows_a_step_down(transient):
@@ -189,6 +226,19 @@ def test_fuel_follows_a_step_down(transient):
     assert run.status is Status.STEADY
     assert run.performance.power == pytest.approx(1905.0, rel=0.01)
     assert run.performance.efficiency > 0.3
+
+
+# --- what the documentation says of it
+
+
+@pytest.mark.parametrize(("base", "seen"), [(30.0, 2.25), (35.0, 1.20), (38.0, 0.49)])
+def test_start_up_with_the_frequency_integrated(transient, base, seen):
+    """The default, whose sweep is the frequency itself: it passes resonance when it gets there."""
+    run = control.start_up(transient, base, duration=seen + 0.7)
+    fired = control.fired_at(run)
+    assert fired == pytest.approx(seen, abs=3 * HALF_CYCLE)
+    at = run.dead_centres[run.dead_centres.t < fired].motor_frequency.iloc[-1]
+    assert 39.5 < at < 43.0  # resonance, 40.3 Hz, a little passed
 
 
 # --- Python and compiled

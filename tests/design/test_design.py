@@ -23,6 +23,7 @@ from saleg.design import (
     formulas,
 )
 from saleg.plotting import design as drawings
+from saleg.thesis import chapter_4
 
 #: The column whose mass leaves no room for an alternator, see docs/design.md.
 OUTLIER = "25 kW"
@@ -107,8 +108,8 @@ def test_designs_of_table_9_from_their_inputs_alone(computed, printed):
     assert computed.stable.all()
     median = deviations(computed, printed).abs().median()
     assert median["stroke"] < 0.01
-    assert median["frequency"] < 0.025
-    assert median["mass"] < 0.025
+    assert median["frequency"] < 0.015
+    assert median["mass"] < 0.02
     assert median["efficiency"] < 0.06
     assert median["power"] < 0.09
     assert median["peak"] < 0.11
@@ -126,8 +127,11 @@ def test_the_outlier_of_table_9_is_one(computed, printed):
     assert others.frequency.abs().max() < 0.035
 
 
-def test_efficiencies_of_the_thesis_are_high_as_its_step_makes_them(computed, printed):
-    """Ours is lower in every column; its own Table 2 loses 1.1 points from 5 to 0.5 us."""
+def test_efficiencies_of_table_9_are_high_as_the_thesis_step_makes_them(computed, printed):
+    """Ours is lower in every column; its own Table 2 loses 1.1 points from 5 to 0.5 us.
+
+    It cannot be all of it: of Table 10 some columns are higher.
+    """
     points = printed.efficiency - 100 * computed.efficiency
     assert (points > 0.0).all()
     with open(TABLES / "table02_step_size.csv", newline="") as file:
@@ -135,6 +139,8 @@ def test_efficiencies_of_the_thesis_are_high_as_its_step_makes_them(computed, pr
     own_error = float(step["5.0E-6"]) - float(step["5.0E-7"])
     assert own_error > 1.0
     assert points.median() > own_error
+    table_10 = chapter_4.deviations(10)["efficiency"]
+    assert sorted(table_10)[4] > 0.0
 
 
 def test_the_lag_of_the_thesis_explains_half_of_what_is_left(computed, printed):
@@ -157,43 +163,55 @@ def test_the_lag_of_the_thesis_explains_half_of_what_is_left(computed, printed):
     assert (after < 0.6 * before).all()
 
 
-def alternator_densities(printed, crankcase):
-    """Density that gives each printed mass with the printed stroke, frequency and power."""
-    found = []
-    for row in (
-        inputs(printed)
-        .assign(
-            S=1e-3 * printed.stroke,
-            f=printed.frequency,
-            P=1e3 * printed.power,
-            m=printed.moving_mass,
-        )
-        .itertuples()
-    ):
+def alternator_densities(number, crankcase):
+    """Density that gives each mass of a table with the printed stroke, frequency and power."""
+    table = chapter_4.printed(number)
+    found = {}
+    for name, row in table.iterrows():
         mover = saleg.design.AlternatorMover(density=1.0)
-        per_density = mover.mass(Parameters(), Operation(row.S, row.f, row.P))
-        crown = formulas.crown_position(
-            formulas.bearing_position(row.S, row.half_stroke), crankcase * row.half_stroke
-        )
+        per_density = mover.mass(Parameters(), Operation(row.stroke, row.frequency, row.power))
+        length = row.neutral_clearance_length
+        bearing = formulas.bearing_position(row.stroke, length)
+        crown = formulas.crown_position(bearing, crankcase * length)
         rest = formulas.piston_mass(row.bore) + formulas.rod_mass(crown)
         rest += formulas.spring_mass(row.spring_stiffness)
-        found.append((row.m - rest) / per_density)
-    return np.array(found)
+        found[name] = (row.moving_mass - rest) / per_density
+    return pd.Series(found)
 
 
-def test_eq_63_leaves_out_the_crankcase(printed):
+def test_eq_63_leaves_out_the_crankcase():
     """One density for all masses with a crankcase of length L, none with Eq. 63 as printed."""
-    others = printed.drop(index=OUTLIER)
-    as_printed = alternator_densities(others, crankcase=0.0)
-    with_crankcase = alternator_densities(others, crankcase=1.0)
+    as_printed = alternator_densities(9, crankcase=0.0).drop(index=OUTLIER)
+    with_crankcase = alternator_densities(9, crankcase=1.0).drop(index=OUTLIER)
     assert as_printed.std() / as_printed.mean() > 0.12
     assert with_crankcase.std() / with_crankcase.mean() < 0.035
     assert with_crankcase.mean() == pytest.approx(820.0, rel=0.02)
-    roomy = saleg.design.evaluate(Design(masses=MassModel.with_crankcase()))
-    assert roomy.moving_mass == pytest.approx(2.39, rel=0.006)
-    assert roomy.performance.frequency == pytest.approx(47.02, rel=0.003)
     # In the outlier next to nothing is left for the alternator, either way.
-    assert alternator_densities(printed.loc[[OUTLIER]], crankcase=1.0)[0] < 100.0
+    assert alternator_densities(9, crankcase=1.0)[OUTLIER] < 100.0
+
+
+def test_room_beneath_the_pistons_is_confirmed_on_columns_that_took_no_part():
+    """Table 10 without its 10 and 25 kW, which leave too little for a mover as Table 12 does.
+
+    Its seven others agree with 820 to 2 %, and scatter less than with the equation as printed.
+    """
+    unfitted = alternator_densities(10, crankcase=1.0)
+    assert (unfitted[["10 kW", "25 kW"]] < 0.6 * 820.0).all()
+    assert alternator_densities(12, crankcase=1.0).iloc[0] < 0.75 * 820.0
+    others = unfitted.drop(index=["10 kW", "25 kW"])
+    assert others.mean() == pytest.approx(820.0, rel=0.02)
+    as_printed = alternator_densities(10, crankcase=0.0)[others.index]
+    assert others.std() / others.mean() < 0.03 < as_printed.std() / as_printed.mean()
+
+
+def test_the_base_case_weighs_what_table_1_says(base_design):
+    """2.39 kg and the 47.02 Hz of Table 5, both missed further with Eq. 63 as printed."""
+    as_printed = saleg.design.evaluate(Design(masses=MassModel.as_printed()))
+    assert Design().masses == MassModel.with_crankcase()
+    for found, mass, frequency in ((base_design, 0.006, 0.003), (as_printed, 0.025, 0.01)):
+        assert found.moving_mass == pytest.approx(2.39, rel=mass)
+        assert found.performance.frequency == pytest.approx(47.02, rel=frequency)
+    assert as_printed.moving_mass < 0.985 * 2.39
 
 
 def test_formulas_at_printed_values():
@@ -217,9 +235,9 @@ def test_geometry_fits_together(base_design):
     assert g.bearing - g.mover_end == pytest.approx(length)
     assert g.head - g.port == pytest.approx(0.133)
     # As Eq. 63 is printed the piston would have to pass the bearing; with a crankcase it has room.
-    assert g.crown - length < g.bearing
-    roomy = saleg.design.evaluate(Design(masses=MassModel.with_crankcase())).geometry
-    assert roomy.crown - length >= roomy.bearing
+    assert g.crown - length >= g.bearing
+    printed = saleg.design.evaluate(Design(masses=MassModel.as_printed())).geometry
+    assert printed.crown - length < printed.bearing
     assert g.mover_inner_diameter == pytest.approx(0.8 * g.mover_outer_diameter)
     assert math.pi * g.rod_diameter**2 / 4.0 == pytest.approx(75e-6)
     assert g.length == 2.0 * g.head
@@ -521,7 +539,7 @@ def test_scores_that_make_no_sense_are_refused(wrong, match):
 
 def test_figures_of_the_design(base_design):
     ax = base_design.draw()
-    assert "789 mm" in ax.get_title()
+    assert "990 mm" in ax.get_title()
     assert ax.get_aspect() == 1.0
     drawings.piston_mass()
     panels = drawings.alternator_map()

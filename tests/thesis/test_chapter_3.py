@@ -69,7 +69,8 @@ def test_two_steps_late_give_the_rows_of_table_2():
 
 
 def test_profiles_of_heat_release_against_table_5():
+    """In the loop, as the text has it: at fixed mass the frequency of (2) is off by 1.3 %."""
     off = chapter_3.heat_release().abs()
-    assert off.drop(columns="power").loc["single Wiebe (base)"].max() < 0.015
-    assert off.drop(columns="power").to_numpy().max() < 0.035
-    assert off["power"].max() < 0.045
+    assert off.drop(columns=["power", "efficiency"]).to_numpy().max() < 0.007
+    assert off["efficiency"].max() < 0.018
+    assert off["power"].max() < 0.026

@@ -24,6 +24,7 @@ DEFAULT = "thesis-transient"
 FLAGS = {
     "duration": "--duration",
     "base_frequency": "--base-frequency",
+    "phase": "--phase",
     "strokes": "--strokes",
     "motor": "--no-motor",
     "demand": "--demand",
@@ -49,6 +50,11 @@ def add_to(commands: Any) -> None:
     add("--duration", type=float, metavar="T", help="time to simulate [s]")
     add(
         "--base-frequency", type=float, metavar="F", help="the motor begins with it [Hz] (start-up)"
+    )
+    add(
+        "--phase",
+        choices=("literal", "integrated"),
+        help="the motor's force is sin(2 pi f t), or its frequency is integrated (start-up)",
     )
     add("--strokes", type=int, metavar="N", help="strokes without fuel (misfire)")
     add(

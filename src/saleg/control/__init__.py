@@ -14,8 +14,14 @@ from saleg.control.experiments import (
     recovery_time,
     start_up,
 )
-from saleg.control.maps import OperatingMap, operating_grid, operating_map
-from saleg.control.moments import first_misfire, fuel_cuts, late_ignitions, motored_times
+from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
+from saleg.control.moments import (
+    first_misfire,
+    fuel_cuts,
+    late_ignitions,
+    motored_times,
+    ports_opened_at,
+)
 from saleg.control.plant import Plant
 from saleg.control.running import (
     fired_at,
@@ -39,7 +45,9 @@ __all__ = [
     "first_misfire",
     "fuel_cut",
     "fuel_cuts",
+    "fuel_map",
     "generator",
+    "intake_map",
     "late_ignitions",
     "misfire",
     "misfires",
@@ -50,6 +58,7 @@ __all__ = [
     "operating_grid",
     "operating_map",
     "overload",
+    "ports_opened_at",
     "rapid_start",
     "recovery_time",
     "simulate",

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from saleg.control.demand import Demand
-from saleg.control.maps import OperatingMap, operating_map
+from saleg.control.maps import OperatingMap, fuel_map, intake_map
 from saleg.control.running import motor_returns, simulate, simulate_many
 from saleg.engine import Engine
 from saleg.engine.controller import Controller
@@ -42,10 +42,6 @@ SETTLING = 15.0
 RAPID = 38.0
 #: Strokes of a cut that does not end.
 FOR_EVER = 1e12
-#: Values of the maps the dissertation draws: intake temperature [K], up to its limit, and
-#: equivalence ratio.
-INTAKE_TEMPERATURES = tuple(float(T) for T in np.linspace(263.0, 370.0, 12))
-EQUIVALENCE_RATIOS = tuple(float(phi) for phi in np.linspace(0.1, 0.7, 13))
 #: How near the steady compression ratio an engine has recovered, relatively.
 RECOVERED = 0.02
 
@@ -252,7 +248,7 @@ def demand_by_intake(
     gain : float
         Of :class:`saleg.laws.HeatedIntake` [K/s]; the dissertation does not give it.
     known : OperatingMap, optional
-        Power and compression ratio over the intake temperature; made up to 370 K unless given.
+        Power and compression ratio over the intake temperature; :func:`intake_map` unless given.
     load_control : LoadControl, optional
         What controls the load; the stroke regulator alone unless given.
     duration : float
@@ -264,7 +260,7 @@ def demand_by_intake(
     -------
     Run
     """
-    known = known or operating_map(engine, "intake.temperature", INTAKE_TEMPERATURES)
+    known = known or intake_map(engine)
     law = _on_map(HeatedIntake, known, demand, gain)
     load = load_control or StrokeRegulator()
     controller = rapid_start(intake_control=law, load_control=load)
@@ -290,7 +286,7 @@ def demand_by_fuel(
     gain : float
         Of :class:`saleg.laws.FuelOnDemand` [1/s].
     known : OperatingMap, optional
-        Power and compression ratio over the equivalence ratio; made from 0.1 to 0.7 unless given.
+        Power and compression ratio over the equivalence ratio; :func:`fuel_map` unless given.
     duration : float
         Time to simulate [s].
     **settings
@@ -300,7 +296,7 @@ def demand_by_fuel(
     -------
     Run
     """
-    known = known or operating_map(engine, "equivalence_ratio", EQUIVALENCE_RATIOS)
+    known = known or fuel_map(engine)
     law = _on_map(FuelOnDemand, known, demand, gain)
     return _from_rest(engine, rapid_start(fuel_control=law), duration, settings)
 

@@ -4,8 +4,8 @@ Examples
 --------
 >>> from saleg.thesis import chapter_4
 >>> beside = chapter_4.deviations(12)
->>> float(beside["stroke"].abs().max().round(2))
-0.01
+>>> float(beside["stroke"].abs().max().round(3))
+0.005
 """
 
 from __future__ import annotations

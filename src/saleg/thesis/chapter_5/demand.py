@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 
 from saleg import control
-from saleg.control.experiments import EQUIVALENCE_RATIOS, INTAKE_TEMPERATURES
 from saleg.engine import Engine
 from saleg.plotting import control as draw
 from saleg.simulation.run import Run
@@ -73,13 +72,13 @@ def _report_demand(efficiency: str, meets: str) -> Callable[[Result], list[Line]
 
 
 def _intake_map(engine: Engine) -> Result:
-    known = control.operating_map(engine, "intake.temperature", INTAKE_TEMPERATURES)
+    known = control.intake_map(engine)
     return Result(table=known.table, also={"map": known})
 
 
 def _fuel_map(engine: Engine) -> Result:
     warm = engine.replace(**{"intake.temperature": WARM})
-    known = control.operating_map(warm, "equivalence_ratio", EQUIVALENCE_RATIOS)
+    known = control.fuel_map(warm)
     return Result(table=known.table, also={"map": known})
 
 
@@ -100,7 +99,9 @@ def _report_map(said: str) -> Callable[[Result], list[Line]]:
 
 
 def _map(engine: Engine) -> Result:
-    return Result(table=control.operating_grid(engine, INTAKE_TEMPERATURES, EQUIVALENCE_RATIOS))
+    maps = control.intake_map(engine), control.fuel_map(engine)
+    temperatures, ratios = (known.table[known.path].tolist()[::2] for known in maps)
+    return Result(table=control.operating_grid(engine, temperatures, ratios))
 
 
 def _report_grid(result: Result) -> list[Line]:
@@ -159,7 +160,7 @@ EXPERIMENTS = {
     ),
     "intake-ramp": Experiment(
         "let the intake temperature answer a ramp in demand (Fig. 103)",
-        _follow(control.demand_by_intake, _ramps, 8.0),
+        _follow(control.demand_by_intake, _ramps, 10.0),
         DRAW_DEMAND,
         _report_demand("15 %", "follows until outside the map"),
         DEMANDS,
