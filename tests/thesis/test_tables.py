@@ -1,5 +1,7 @@
 """Printed tables: all are read, in SI, and agree with themselves where they can."""
 
+import math
+
 import pytest
 
 import saleg
@@ -77,6 +79,7 @@ def test_table_5_begins_with_the_base_case():
 def test_table_6_describes_two_prototypes():
     given = tables.columns(6)
     assert given["ulsan"]["maximum_stroke"] == pytest.approx(0.031)
+    assert given["ulsan"]["spring_stiffness"] == pytest.approx(2900.0)
     assert given["wvu"]["heat_addition_per_stroke"] == 25.0
     assert given["wvu"]["combustion_duration"] == pytest.approx(2.85e-3)
     assert "combustion_duration" not in given["ulsan"]
@@ -96,6 +99,16 @@ def test_designs_have_their_power_density(number):
     rows = printed(number)
     density = rows["power"] / rows["moving_mass"]
     assert (density / rows["power_density"] - 1.0).abs().max() < 0.01
+
+
+@pytest.mark.parametrize("number", DESIGNS)
+def test_designs_have_their_displacement_and_stroke_to_bore(number):
+    """Of both cylinders together."""
+    rows = printed(number)
+    swept = 2.0 * 0.25 * math.pi * rows["bore"] ** 2 * rows["stroke"]
+    assert (swept / rows["displacement"] - 1.0).abs().max() < 0.01
+    ratio = 2.0 * rows["neutral_clearance_length"] / rows["bore"]
+    assert (ratio / rows["maximum_stroke_to_bore"] - 1.0).abs().max() < 0.01
 
 
 def test_every_design_of_table_10_keeps_its_limit_of_compression():

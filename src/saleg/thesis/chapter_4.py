@@ -42,6 +42,8 @@ FIGURES = {
     "efficiency": "efficiency",
     "power": "power",
     "peak_pressure": "peak_pressure",
+    "displacement": "displacement",
+    "stroke_to_bore": "maximum_stroke_to_bore",
 }
 
 
@@ -62,6 +64,22 @@ def printed(number: int) -> pd.DataFrame:
     return pd.DataFrame.from_dict(columns(number), orient="index")
 
 
+def inputs(number: int) -> pd.DataFrame:
+    """Inputs of the designs of a table.
+
+    Parameters
+    ----------
+    number : int
+        9, 10, 11 or 12.
+
+    Returns
+    -------
+    DataFrame
+        One row per design, the eight inputs of :func:`saleg.design.evaluate` in SI.
+    """
+    return printed(number)[list(INPUTS.values())].set_axis(list(INPUTS), axis=1)
+
+
 def run(number: int = 9, design: Design | None = None) -> pd.DataFrame:
     """Designs of a table from their eight inputs alone.
 
@@ -79,9 +97,8 @@ def run(number: int = 9, design: Design | None = None) -> pd.DataFrame:
     """
     from saleg.design import evaluate_many
 
-    given = printed(number)
-    inputs = given[list(INPUTS.values())].set_axis(list(INPUTS), axis=1)
-    return evaluate_many(inputs, design, multipliers=True).set_axis(given.index)
+    given = inputs(number)
+    return evaluate_many(given, design, multipliers=True).set_axis(given.index)
 
 
 def deviations(number: int = 9, design: Design | None = None) -> pd.DataFrame:

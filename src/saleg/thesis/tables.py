@@ -30,19 +30,29 @@ FILES = {
 }
 #: Factors from printed units to SI; degC has an offset instead.
 TO_SI = {
-    "mm": 1e-3,
-    "bar": 1e5,
-    "kW": 1e3,
-    "kW/kg": 1e3,
+    "-": 1.0,
     "%": 1e-2,
     "pct": 1e-2,
+    "mm": 1e-3,
+    "cc": 1e-6,
+    "m/s": 1.0,
+    "km/s^2": 1e3,
+    "s": 1.0,
+    "ms": 1e-3,
+    "Hz": 1.0,
+    "g": 1e-3,
+    "kg": 1.0,
+    "N": 1.0,
     "kN": 1e3,
     "kN/m": 1e3,
+    "N/mm": 1e3,
+    "bar": 1e5,
+    "J": 1.0,
     "kJ": 1e3,
-    "g": 1e-3,
-    "ms": 1e-3,
-    "km/s^2": 1e3,
     "MJ/kg": 1e6,
+    "kW": 1e3,
+    "kW/kg": 1e3,
+    "K": 1.0,
     "MB": 1e6,
 }
 #: Columns that say what stands in a row; all others hold numbers.
@@ -131,7 +141,7 @@ def _numbers(row: dict[str, str], key: str) -> dict[str, float]:
     found = {}
     for heading, printed in row.items():
         name, _, unit = heading.rpartition("_")
-        if unit not in TO_SI and unit not in ("s", "Hz"):
+        if unit not in TO_SI:
             name, unit = heading, "-"
         if heading != key and heading not in WORDS:
             found[name] = _si(printed, unit)
@@ -162,7 +172,7 @@ def _si(printed: str, unit: str) -> float:
     value = float(printed)
     if unit == "degC":
         return value + 273.15
-    return float(f"{value * TO_SI.get(unit, 1.0):.12g}")
+    return float(f"{value * TO_SI[unit]:.12g}")
 
 
 def _study(number: int, key: str) -> dict[float, dict[str, float]]:
