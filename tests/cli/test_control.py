@@ -6,7 +6,6 @@ import pytest
 
 import saleg
 from saleg.cli import main
-from saleg.plotting import control as draw
 from saleg.thesis.chapter_5 import EXPERIMENTS
 
 
@@ -141,10 +140,3 @@ def test_a_demand_that_cannot_be_read(capsys, tmp_path):
     path = tmp_path / "demand.csv"
     path.write_text("time,power\n0,3900\n2,many\n")
     assert "line 3" in mistake(capsys, "load-step", "--demand", str(path))
-
-
-@pytest.mark.parametrize("name", EXPERIMENTS)
-def test_every_experiment_has_its_figures(name):
-    for picture in EXPERIMENTS[name].draw.values():
-        used = [word for word in picture.__code__.co_names if hasattr(draw, word)]
-        assert len(used) == 1

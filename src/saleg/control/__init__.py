@@ -2,9 +2,6 @@
 
 from saleg.control.demand import Demand
 from saleg.control.experiments import (
-    demand_by_fuel,
-    demand_by_intake,
-    demand_by_load,
     fuel_cut,
     misfire,
     misfires,
@@ -13,6 +10,12 @@ from saleg.control.experiments import (
     rapid_start,
     recovery_time,
     start_up,
+)
+from saleg.control.following import (
+    demand_by_fuel,
+    demand_by_intake,
+    demand_by_load,
+    follow_demand,
 )
 from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
 from saleg.control.moments import (
@@ -43,6 +46,7 @@ __all__ = [
     "demand_by_load",
     "fired_at",
     "first_misfire",
+    "follow_demand",
     "fuel_cut",
     "fuel_cuts",
     "fuel_map",
