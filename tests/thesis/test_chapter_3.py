@@ -1,5 +1,6 @@
 """Base case and numerical studies beside Tables 1 to 5."""
 
+import numpy as np
 import pytest
 
 import saleg
@@ -64,7 +65,7 @@ def test_two_steps_late_give_the_rows_of_table_2():
     for row in late[late["delay"] == 2].itertuples():
         for figure in ("stroke", "peak_pressure", "efficiency"):
             within(getattr(row, figure), chapter_3.TABLE_2[row.step][figure], 0.01)
-    ax = chapter_3.draw(late, new_figure(4, 3).subplots())
+    ax = chapter_3.draw_delays(late, new_figure(4, 3).subplots())
     assert "thesis, Table 2" in [line.get_label() for line in ax.lines]
 
 
@@ -74,3 +75,22 @@ def test_profiles_of_heat_release_against_table_5():
     assert off.drop(columns=["power", "efficiency"]).to_numpy().max() < 0.007
     assert off["efficiency"].max() < 0.018
     assert off["power"].max() < 0.026
+
+
+@pytest.mark.parametrize("number", range(36, 43))
+def test_figures_of_the_base_case(base_run, number):
+    figure = chapter_3.FIGURES[number]
+    assert figure.run is chapter_3.base_case
+    assert all(ax.get_title() for ax in np.ravel(figure.draw(base_run))[:1])
+
+
+def test_studies_are_run_and_drawn_by_the_number_of_their_figure():
+    """One of each kind; a study that two figures show is run once."""
+    assert list(chapter_3.FIGURES) == list(range(36, 60))
+    shown = {}
+    for number in (46, 51, 56, 57):
+        figure = chapter_3.FIGURES[number]
+        shown.setdefault(figure.run, figure.run())
+        ax = figure.draw(shown[figure.run])
+        assert ax.get_title()
+        assert len(ax.lines) >= 2

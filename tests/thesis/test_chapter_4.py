@@ -76,6 +76,33 @@ def test_the_report_and_the_picture_show_every_design(beside):
     assert "[%]" in ax.get_ylabel()
 
 
+# Sweeps
+
+
+@pytest.mark.parametrize("name", chapter_4.SWEEPS)
+def test_sweeps_rise_and_fall_as_the_text_says(name):
+    """In the stable region, in the direction of the input; nothing is printed of the stiffness."""
+    table = chapter_4.sweep_along(name, 13)
+    figures = ["efficiency", "power_density", "compression_ratio", "peak_pressure"]
+    rising, falling = {
+        "bore": (figures, []),
+        "half_stroke": ([], ["compression_ratio", "efficiency"]),
+        "port_location": ([], ["frequency", "compression_ratio", "power_density", "peak_pressure"]),
+        "intake_pressure": (figures, []),
+        "intake_temperature": (["frequency"], figures),
+        "spring_stiffness": ([], figures),
+        "equivalence_ratio": (figures, []),
+        "egr": ([], figures),
+    }[name]
+    stable = table[table["stable"]]
+    assert len(stable) > 4
+    for figure in rising:
+        assert stable[figure].iloc[-1] > stable[figure].iloc[0], figure
+    for figure in falling:
+        assert stable[figure].iloc[-1] < stable[figure].iloc[0], figure
+    assert len(chapter_4.draw_sweep(table, name)) == 8
+
+
 # Table 9
 
 
