@@ -1,6 +1,5 @@
 import dataclasses
 import math
-import re
 import subprocess
 import sys
 
@@ -11,7 +10,6 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
 import saleg
-from helpers import ROOT
 from saleg import fundamental as fm
 from saleg.cli import main
 from saleg.errors import InvalidEngine, OutsideModel
@@ -650,14 +648,3 @@ def test_importing_it_needs_neither_matplotlib_nor_scipy():
         "assert not {'matplotlib', 'pandas', 'numba', 'scipy'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
-
-
-def test_the_example_makes_the_pictures_of_the_docs(tmp_path):
-    example = ROOT / "examples" / "05_fundamental.py"
-    subprocess.run([sys.executable, "-W", "error", str(example), str(tmp_path)], check=True)
-    page = (ROOT / "docs" / "fundamental.md").read_text(encoding="utf-8")
-    shown = re.findall(r"images/(fundamental_\w+\.png)", page)
-    assert sorted(set(shown)) == sorted(picture.name for picture in tmp_path.glob("*.png"))
-    for name in shown:
-        assert (tmp_path / name).stat().st_size < 150e3
-        assert (ROOT / "docs" / "images" / name).stat().st_size < 150e3

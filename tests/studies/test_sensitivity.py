@@ -1,14 +1,12 @@
 """What section 3.6 of the thesis says of its model, shown on ours; findings where they differ."""
 
 import math
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 import saleg
-from helpers import ROOT, TABLES, bounce_engine
+from helpers import TABLES, bounce_engine
 from saleg import laws, sensitivity
 from saleg.plotting import sensitivity as figures
 from saleg.thesis.tables import TABLE_5
@@ -401,15 +399,3 @@ def test_nothing_to_draw_is_said(base):
     stalled = sensitivity.study(base, "ignition.b", [5e3])
     with pytest.raises(saleg.plotting.NoCycle, match="no run of the study"):
         figures.pressure_volume(stalled)
-
-
-def test_the_pictures_are_small_and_can_be_made(tmp_path):
-    example = ROOT / "examples" / "06_sensitivity.py"
-    subprocess.run([sys.executable, "-W", "error", str(example), str(tmp_path)], check=True)
-    page = (ROOT / "docs" / "sensitivity.md").read_text(encoding="utf-8")
-    made = list(tmp_path.glob("*.png"))
-    assert len(made) == 7
-    for picture in made:
-        assert f"images/{picture.name}" in page
-        for folder in (tmp_path, ROOT / "docs" / "images"):
-            assert (folder / picture.name).stat().st_size < 150e3
