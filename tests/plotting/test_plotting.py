@@ -445,6 +445,6 @@ def test_neither_pyplot_nor_a_display_is_needed():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_every_figure_is_named_in_the_docs():
+def test_the_page_of_figures_names_them_all():
     page = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
     assert all(f"`{name}`" in page for name in FIGURES)
