@@ -267,7 +267,7 @@ def test_every_part_commands_the_same_compiled(part):
             0.6,
             300.0,
         )
-        signals[:] = seen
+        signals[0] = seen
         call_at(
             address,
             numbers.ctypes.data,
@@ -276,7 +276,7 @@ def test_every_part_commands_the_same_compiled(part):
             commands.ctypes.data,
         )
         wanted = python.act(seen)
-        np.testing.assert_allclose(commands, wanted, rtol=1e-14)
+        np.testing.assert_allclose(commands[0].tolist(), wanted, rtol=1e-14)
         np.testing.assert_allclose(held, python.held.ravel(), rtol=1e-14)
         was = wanted.motoring
 

@@ -38,7 +38,14 @@ if TYPE_CHECKING:
     from saleg.engine.controller import Controller
 
 PACKAGE = Path(__file__).resolve().parent.parent
-BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py", "kernel/call_at.py")
+BEFORE_SLOTS = (
+    "laws/arguments.py",
+    "kernel/copies.py",
+    "kernel/tuples.py",
+    "kernel/aid.py",
+    "kernel/layout.py",
+    "kernel/call_at.py",
+)
 INTEGRATOR = (
     "rhs",
     "step",

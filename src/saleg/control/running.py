@@ -12,8 +12,8 @@ import numpy as np
 from saleg.batch.many import CHUNK, RUN_UNITS, Row, run_row, table_of
 from saleg.compiler.compose import kernel_for
 from saleg.compiler.controllers import control_of
-from saleg.control.plant import InPython, Plant, course_of, give, measured
-from saleg.control.sensors import Measurement, Sensors
+from saleg.control.plant import InPython, Plant, course_of, give
+from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.control.verdict import verdict_of
 from saleg.engine import Engine
 from saleg.engine.controller import Controller

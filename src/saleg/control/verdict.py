@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from saleg.control.sensors import measured
 from saleg.engine.controller import Controller
 from saleg.kernel import layout
-from saleg.kernel.control import write_signals
 from saleg.kernel.decide import with_motoring
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS, StateLogic
@@ -74,11 +74,10 @@ def blamed(controller: Controller, held: np.ndarray, signals: Signals, fault: fl
 def _compiled_fault(course: Course) -> str:
     """What a controller in the kernel has done wrong; it is asked once more, as Python."""
     assert course.controller is not None
-    E, values = course.state.engine[0], np.zeros(len(Signals._fields))
-    write_signals(course.state.records[0], values)
+    E = course.state.engine[0]
     held = E["held"].reshape(layout.CONTROL_PARTS, layout.HELD)
-    fault, commands = float(E["fault"]), Commands(*course.commanded.tolist())
-    who = blamed(course.controller, held, Signals(*values.tolist()), fault)
+    fault, commands = float(E["fault"]), course.commanded
+    who = blamed(course.controller, held, measured(course.state), fault)
     return who if "raised" in who else f"{who}: {fault_message(fault, commands, course.controller)}"
 
 

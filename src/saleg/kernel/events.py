@@ -186,7 +186,7 @@ def locate(P, E, C, O, tableau, t, h, guess, y, k, y_new, event):
     is that of one Runge-Kutta step to it, so the order of the method is kept. The last small
     correction is made along a cubic, whose error is then far below that of the step.
     """
-    stages = tableau[1].shape[0]
+    stages = tableau.b.shape[0]
     before = event_value(E, C, event, y)
     if before >= 0.0 and event_rate(E, C, event, y, k[0]) > 0.0:
         take_step(P, E, C, tableau, t, 0.0, y, k, y_new, O.motored)

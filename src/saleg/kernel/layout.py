@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from saleg.laws.arguments import Commands, Signals
+
 # Sides.
 LEFT = 0
 RIGHT = 1
@@ -321,6 +323,17 @@ HISTORY_RECORD = np.dtype(
         )
     ]
 )
+
+#: Numbers of rows filled in the tables of a run.
+FILLED_RECORD = np.dtype([(name, np.int64) for name in ("strokes", "events", "history")])
+
+#: What a controller is shown and what it asks for.
+SIGNALS_RECORD = np.dtype([(name, np.float64) for name in Signals._fields])
+COMMANDS_RECORD = np.dtype([(name, np.float64) for name in Commands._fields])
+
+#: How the search for a fixed point went: maps taken, how far the last image is from its point, and
+#: how far a whole cycle misses its start.
+SEARCH_RECORD = np.dtype([(name, np.float64) for name in ("maps", "residual", "missed")])
 
 #: What the caller asks of the integrator.
 OPTIONS_RECORD = np.dtype(

@@ -7,6 +7,7 @@ chambers' records (see :mod:`saleg.kernel.layout`), `side` 0 for left and 1 for 
 from math import exp, log, pi, sin
 
 from saleg.kernel.aid import Aid
+from saleg.kernel.copies import motored_gas, with_pressure_rate
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     ALTERNATOR_IMPULSE,
@@ -78,17 +79,17 @@ def gas_at(E, C, side, x, v, ln_p, ln_p_motored):
     height = height_of(C, side, x)
     volume = c.area * height
     return Gas(
-        p,
-        p * volume * c.per_mass_gas,
-        volume,
-        p if ln_p_motored == ln_p else exp(ln_p_motored),
-        height,
-        c.bore,
-        E.mean_piston_speed,
-        c.wall_temperature,
-        1.0 if c.mode == BURNING else 0.0,
-        c.sign * v,
-        0.0,
+        p=p,
+        T=p * volume * c.per_mass_gas,
+        V=volume,
+        p_motored=p if ln_p_motored == ln_p else exp(ln_p_motored),
+        height=height,
+        bore=c.bore,
+        mean_piston_speed=E.mean_piston_speed,
+        wall_temperature=c.wall_temperature,
+        burning=1.0 if c.mode == BURNING else 0.0,
+        height_rate=c.sign * v,
+        p_rate=0.0,
     )
 
 
@@ -102,21 +103,12 @@ def gas_of(E, C, side, y, motored):
 
 
 @inline
-def heat_aid(C, side, ln_height, ln_p):
-    """What helps to evaluate the heat-transfer law."""
+def aid_of(C, side, ln_height, ln_p, constants):
+    """Logarithms of the gas, and constants of a law, for the law's reduced form."""
     c = C[side]
     ln_V = ln_height + c.ln_volume
     ln_T = ln_p + ln_V - c.ln_mass_gas
-    return Aid(ln_p, ln_T, ln_V, c.heat_first, c.heat_second, c.heat_third)
-
-
-@inline
-def ignition_aid(C, side, ln_height, ln_p):
-    """What helps to evaluate the ignition law."""
-    c = C[side]
-    ln_V = ln_height + c.ln_volume
-    ln_T = ln_p + ln_V - c.ln_mass_gas
-    return Aid(ln_p, ln_T, ln_V, c.ignition_first, c.ignition_second, c.ignition_third)
+    return Aid(ln_p, ln_T, ln_V, constants[0], constants[1], constants[2])
 
 
 @inline
@@ -124,15 +116,15 @@ def charge_of(E, C, side):
     """What the laws are shown of the charge since port closing."""
     c = C[side]
     return Charge(
-        c.mass,
-        c.fuel,
-        c.air,
-        c.burnt,
-        c.equivalence_ratio,
-        c.p_closing,
-        c.T_closing,
-        c.V_closing,
-        c.area * E.stroke,
+        mass=c.mass,
+        fuel=c.fuel,
+        air=c.air,
+        burnt=c.burnt,
+        equivalence_ratio=c.equivalence_ratio,
+        p=c.p_closing,
+        T=c.T_closing,
+        V=c.V_closing,
+        swept_volume=c.area * E.stroke,
     )
 
 
@@ -182,57 +174,25 @@ def chamber_rates(P, E, C, side, t, y, dy, motored):
     gas = gas_at(E, C, side, y[X], y[V], ln_p, ln_p_motored)
     charge = charge_of(E, C, side)
     released = heat_release(P, C, side, t)
-    lost = heat_loss(P, C, side, gas, charge, heat_aid(C, side, ln_height, ln_p))
+    heat_constants = (c.heat_first, c.heat_second, c.heat_third)
+    lost = heat_loss(P, C, side, gas, charge, aid_of(C, side, ln_height, ln_p, heat_constants))
     dy[THETA + side] = theta_rate(P, side, gas, growth, released - lost)
     dy[N_STATE + HEAT_RELEASED + side] = released
     dy[N_STATE + HEAT_LOST + side] = lost
     dy[N_STATE + GAS_WORK + side] = gas.p * c.area * growth
     dy[N_STATE + PORT_WORK + side] = 0.0
     if c.armed > DISARMED and c.mode == CLOSED:
-        rising = with_pressure_rate(gas, dy[THETA + side] - G0 * growth / gas.height)
-        aid = ignition_aid(C, side, ln_height, ln_p)
+        relative_rate = dy[THETA + side] - G0 * growth / gas.height
+        rising = with_pressure_rate(gas, gas.p * relative_rate)
+        constants = (c.ignition_first, c.ignition_second, c.ignition_third)
+        aid = aid_of(C, side, ln_height, ln_p, constants)
         dy[IGNITION + side] = ignition_rate(P, side, rising, charge, aid)
     if motored:
-        cold = motored_gas(C, side, gas)
-        lost = heat_loss(P, C, side, cold, charge, heat_aid(C, side, ln_height, ln_p_motored))
+        cold = motored_gas(gas, gas.p_motored * gas.V * c.per_mass_gas)
+        aid = aid_of(C, side, ln_height, ln_p_motored, heat_constants)
+        lost = heat_loss(P, C, side, cold, charge, aid)
         dy[MOTORED + side] = theta_rate(P, side, cold, growth, -lost)
     return gas.p
-
-
-@inline
-def with_pressure_rate(gas, relative_rate):
-    """The same gas with the rate of its pressure, given relative to the pressure [1/s]."""
-    return Gas(
-        gas.p,
-        gas.T,
-        gas.V,
-        gas.p_motored,
-        gas.height,
-        gas.bore,
-        gas.mean_piston_speed,
-        gas.wall_temperature,
-        gas.burning,
-        gas.height_rate,
-        gas.p * relative_rate,
-    )
-
-
-@inline
-def motored_gas(C, side, gas):
-    """The same charge at its motored pressure."""
-    return Gas(
-        gas.p_motored,
-        gas.p_motored * gas.V * C[side].per_mass_gas,
-        gas.V,
-        gas.p_motored,
-        gas.height,
-        gas.bore,
-        gas.mean_piston_speed,
-        gas.wall_temperature,
-        0.0,
-        gas.height_rate,
-        0.0,
-    )
 
 
 @inline

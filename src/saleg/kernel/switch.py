@@ -73,13 +73,25 @@ from saleg.laws.arguments import Motion, Stroke
 FIRST_OF_BURN = 0.1
 
 
+@inline
+def has_room(O, tables):
+    """Whether one more step can be recorded."""
+    filled = tables.filled[0]
+    return (
+        tables.strokes.shape[0] - filled.strokes >= 1
+        and (O.events == 0 or tables.events.shape[0] - filled.events >= 12)
+        and (O.history == 0 or tables.history.shape[0] - filled.history >= 2 + O.dense)
+    )
+
+
 @compiled
-def record_event(E, C, O, y, kind, side, events, filled):
+def record_event(E, C, O, y, kind, side, tables):
     """Append a row to the event table."""
     if not O.events:
         return
-    row = events[filled[1]]
-    filled[1] += 1
+    filled = tables.filled[0]
+    row = tables.events[filled.events]
+    filled.events += 1
     row.t = E.t
     row.kind = kind
     row.side = side
@@ -285,13 +297,13 @@ def regulate(P, E, C, y):
     length = abs(y[X] - E.x_dead_centre)
     duration = E.t - E.t_dead_centre
     stroke = Stroke(
-        length,
-        duration,
-        E.maximum_stroke,
-        0.5 * E.maximum_stroke,
-        0.5 * (C[LEFT].area + C[RIGHT].area),
-        fuel + E.last_fuel_energy,
-        squared + E.last_speed_squared,
+        length=length,
+        duration=duration,
+        maximum=E.maximum_stroke,
+        half_maximum=0.5 * E.maximum_stroke,
+        piston_area=0.5 * (C[LEFT].area + C[RIGHT].area),
+        fuel_energy=fuel + E.last_fuel_energy,
+        speed_squared=squared + E.last_speed_squared,
     )
     E.last_fuel_energy = fuel
     E.last_speed_squared = squared
@@ -366,11 +378,12 @@ def change_mode(P, E, C, O, side, y, kind):
 
 
 @compiled
-def turn(P, E, C, y, peaks, strokes, filled, control):
+def turn(P, E, C, y, peaks, tables, control):
     """Dead centre: close the books of the stroke, let the regulators act, turn around."""
     if isfinite(E.x_dead_centre) and E.t > E.t_dead_centre:
-        write_stroke(P, E, C, y, peaks, strokes[filled[0]])
-        filled[0] += 1
+        filled = tables.filled[0]
+        write_stroke(P, E, C, y, peaks, tables.strokes[filled.strokes])
+        filled.strokes += 1
         regulate(P, E, C, y)
         E.strokes += 1.0
         E.steps_at_dead_centre = E.steps
@@ -387,7 +400,7 @@ def turn(P, E, C, y, peaks, strokes, filled, control):
 
 
 @compiled
-def switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control):
+def switch(P, E, C, O, y, landed, peaks, tables, control):
     """Do all that is due at the present instant; returns whether anything was.
 
     Chambers change first, one after the other, then the translator turns, which may make further
@@ -401,24 +414,24 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control):
         for side in range(2):
             kind = change_due(P, E, C, side, y)
             if kind >= 0:
-                record_event(E, C, O, y, kind, side, events, filled)
+                record_event(E, C, O, y, kind, side, tables)
                 change_mode(P, E, C, O, side, y, kind)
                 quiet = False
                 changed = True
         if quiet and not turns:
             break
         if quiet:
-            turn(P, E, C, y, peaks, strokes, filled, control)
+            turn(P, E, C, y, peaks, tables, control)
             side = LEFT if E.direction > 0.0 else RIGHT
-            record_event(E, C, O, y, kind_of_turn(landed), side, events, filled)
+            record_event(E, C, O, y, kind_of_turn(landed), side, tables)
             turns = False
             changed = True
     if E.motoring != was_motoring:
         kind = EVENT_MOTOR_ON if E.motoring > 0.0 else EVENT_MOTOR_OFF
         side = LEFT if E.direction > 0.0 else RIGHT
-        record_event(E, C, O, y, kind, side, events, filled)
+        record_event(E, C, O, y, kind, side, tables)
     if landed >= HEAD:
-        record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, events, filled)
+        record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, tables)
     if changed:
         refresh(P, E, C, y)
     return changed
