@@ -73,7 +73,7 @@ def _with_room(address: int, numbers: np.ndarray) -> Control:
     return Control(
         address=address,
         numbers=numbers,
-        memory=np.zeros(layout.CONTROL_PARTS * layout.HELD),
+        memory=np.zeros(layout.CONTROL_PARTS * layout.MEMORY),
         signals=np.zeros(1, layout.SIGNALS_RECORD),
         commands=commands,
     )
@@ -155,7 +155,7 @@ def _body(places: list[str], count: int) -> str:
     signals = ", ".join(f"s[{n}]" for n in range(len(Signals._fields)))
     lines = [
         f"p = numba.carray(numbers_at, ({count},))",
-        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.HELD}))",
+        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.MEMORY}))",
         f"s = numba.carray(signals_at, ({len(Signals._fields)},))",
         f"c = numba.carray(commands_at, ({len(Commands._fields)},))",
         f"wanted = decide(all_numbers({', '.join(places)}), h, Signals({signals}))",

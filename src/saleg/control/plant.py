@@ -294,7 +294,7 @@ class InPython:
 
     def __init__(self, controller: Controller):
         self.controller = controller
-        self.held = np.zeros((layout.CONTROL_PARTS, layout.HELD))
+        self.memory = np.zeros((layout.CONTROL_PARTS, layout.MEMORY))
 
     def act(self, signals: Signals) -> Commands:
         """Commands at a dead centre.
@@ -304,9 +304,9 @@ class InPython:
         ControllerError
             Naming the part that failed.
         """
-        before = self.held.copy()
+        before = self.memory.copy()
         try:
-            commands = decide(self.controller, self.held, signals)
+            commands = decide(self.controller, self.memory, signals)
         except Exception as error:  # whatever a part does, the run says so
             raise ControllerError(blamed(self.controller, before, signals)) from error
         return Commands(*(float(value) for value in commands))

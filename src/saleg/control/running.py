@@ -140,7 +140,7 @@ def _compiled(engine: Engine, controller: Controller, duration: float, settings:
         give(course, parts.act(measured(course.state)), first=True)
     except ControllerError as error:
         return course.run(*verdict_of(course, 0, str(error)))
-    course.state.engine["held"][0] = parts.held.ravel()
+    course.state.engine["memory"][0] = parts.memory.ravel()
     code = course.go_on()
     return course.run(*verdict_of(course, code), course.replay())
 

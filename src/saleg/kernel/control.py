@@ -7,7 +7,7 @@ no other kernel; `control` is a :class:`saleg.kernel.tuples.Control`.
 from math import inf, isfinite, nan, pi
 
 from saleg.kernel.jit import compiled, inline
-from saleg.kernel.layout import CONTROL_PARTS, HELD
+from saleg.kernel.layout import CONTROL_PARTS, MEMORY
 from saleg.kernel.rhs import motor_angle
 from saleg.kernel.slots import actuators_follow, actuators_refused, call_at
 from saleg.laws.arguments import Commands
@@ -53,8 +53,8 @@ def ask(E, control):
     """Commands of the controller; the memory of its parts travels with the engine's record."""
     memory, signals, commands = control.memory, control.signals, control.commands
     write_signals(E, signals[0])
-    for n in range(CONTROL_PARTS * HELD):
-        memory[n] = E.held[n]
+    for n in range(CONTROL_PARTS * MEMORY):
+        memory[n] = E.memory[n]
     commands[0] = commands[1]  # NaN, which stays where the controller fails
     call_at(
         control.address,
@@ -64,8 +64,8 @@ def ask(E, control):
         commands.ctypes.data,
     )
     if isfinite(commands[0].motoring):
-        for n in range(CONTROL_PARTS * HELD):
-            E.held[n] = memory[n]
+        for n in range(CONTROL_PARTS * MEMORY):
+            E.memory[n] = memory[n]
     return commands_of(commands[0])
 
 

@@ -12,12 +12,12 @@ def gas_in_state(gas, p, T, burning, p_rate):
         T=T,
         V=gas.V,
         p_motored=gas.p_motored,
-        height=gas.height,
+        clearance=gas.clearance,
         bore=gas.bore,
         mean_piston_speed=gas.mean_piston_speed,
         wall_temperature=gas.wall_temperature,
         burning=burning,
-        height_rate=gas.height_rate,
+        clearance_rate=gas.clearance_rate,
         p_rate=p_rate,
     )
 

@@ -6,7 +6,7 @@ from saleg.kernel.slots import (
     intake_control_temperature,
     load_control_weight,
     motor_control_drive,
-    state_logic_motors,
+    state_logic_is_motor,
 )
 from saleg.laws.arguments import Commands, Signals
 
@@ -32,19 +32,19 @@ def with_motoring(s, motoring):
 
 
 @compiled
-def decide(P, held, measured):
+def decide(P, memory, measured):
     """Commands of the parts of the controller, each with the numbers it holds."""
-    motoring = state_logic_motors(P, held[0], measured)
+    motoring = state_logic_is_motor(P, memory[0], measured)
     signals = with_motoring(measured, motoring)
-    drive = motor_control_drive(P, held[1], signals)
+    drive = motor_control_drive(P, memory[1], signals)
     return Commands(
         motoring=motoring,
-        load_weight=load_control_weight(P, held[2], signals),
+        load_weight=load_control_weight(P, memory[2], signals),
         amplitude=drive.amplitude,
         frequency=drive.frequency,
         sweep=drive.sweep,
         sets_phase=drive.sets_phase,
         phase=drive.phase,
-        equivalence_ratio=fuel_control_equivalence_ratio(P, held[3], signals),
-        intake_temperature=intake_control_temperature(P, held[4], signals),
+        equivalence_ratio=fuel_control_equivalence_ratio(P, memory[3], signals),
+        intake_temperature=intake_control_temperature(P, memory[4], signals),
     )

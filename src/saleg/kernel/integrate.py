@@ -23,7 +23,7 @@ from saleg.kernel.layout import (
     END_OF_TIME,
     HEAD,
     HEAD_CONTACT,
-    MOST_STEPS,
+    MAX_STEPS,
     N_ALL,
     N_PEAKS,
     PEAK_PRESSURE,
@@ -35,12 +35,12 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.observe import observe
 from saleg.kernel.peaks import watch_point, watch_step
-from saleg.kernel.rhs import height_of, refresh, rhs
+from saleg.kernel.rhs import clearance_of, refresh, rhs
 from saleg.kernel.step import error_norm, take_step
 from saleg.kernel.switch import has_room, switch
 
 # Logarithm of the least error the controller remembers of a step.
-LEAST_LN_ERROR = -9.21
+MIN_LN_ERROR = -9.21
 
 
 @inline
@@ -58,7 +58,7 @@ def proposed_end(E, O, t_event):
 def compression(C, y, y_new):
     """Clearance on the side that is compressed at the end of a step over that at its begin."""
     side = 0 if y_new[V] < 0.0 else 1
-    return min(height_of(C, side, y_new[X]) / height_of(C, side, y[X]), 1.0)
+    return min(clearance_of(C, side, y_new[X]) / clearance_of(C, side, y[X]), 1.0)
 
 
 @compiled
@@ -73,7 +73,7 @@ def control_step(E, C, order, h, error, was_rejected, y, y_new):
     ln_error = log(max(error, 1e-10))
     factor = 0.9 * exp(beta * E.ln_last_error - exponent * ln_error)
     factor = min(max(factor, 0.2), 1.0 if was_rejected else 6.0)
-    E.ln_last_error = max(ln_error, LEAST_LN_ERROR)
+    E.ln_last_error = max(ln_error, MIN_LN_ERROR)
     E.next_step = h * factor * compression(C, y, y_new)
 
 
@@ -216,7 +216,7 @@ def run_on(run):
     while E.t < O.t_end:
         if E.steps >= last_step or not has_room(O, tables):
             return BUFFER_FULL
-        if O.adaptive == 1 and E.steps - E.steps_at_dead_centre > MOST_STEPS:
+        if O.adaptive == 1 and E.steps - E.steps_at_dead_centre > MAX_STEPS:
             return TOO_MANY_STEPS
         t_event = next_time_event(C, O.t_end)
         full, end, aim = good_step(P, E, C, O, tableau, run.order, t_event, y, k, y_new)

@@ -25,7 +25,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import height_of
+from saleg.kernel.rhs import clearance_of
 from saleg.kernel.run_plainly import run_at
 from saleg.kernel.switch import begin_stroke
 
@@ -124,9 +124,9 @@ def read_vector(E, C, y, z):
         y[IGNITION + side] = z[first + Z_INTEGRAL]
         y[MOTORED + side] = z[first + Z_LN_MOTORED]
         if c.curve_exponent > 0.0 > c.sign * E.direction:  # its charge was renewed just here
-            height = height_of(C, side, y[X])
-            c.p_closing = exp(y[THETA + side] - G0 * log(height / c.half_stroke))
-            c.V_closing = c.area * height
+            clearance = clearance_of(C, side, y[X])
+            c.p_closing = exp(y[THETA + side] - G0 * log(clearance / c.half_stroke))
+            c.V_closing = c.area * clearance
             c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
         if c.mode == BURNING:
             c.duration = exp(z[first + Z_LN_DURATION])

@@ -23,7 +23,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import height_of, rhs
+from saleg.kernel.rhs import clearance_of, rhs
 from saleg.kernel.step import take_step
 
 # Share of the greatest value so far below which both ends of a step promise no greater one within.
@@ -38,7 +38,7 @@ def pressure_rate(C, side, y, dy):
     c = C[side]
     if c.mode == OPEN:
         return 0.0
-    return dy[THETA + side] - G0 * c.sign * y[V] / height_of(C, side, y[X])
+    return dy[THETA + side] - G0 * c.sign * y[V] / clearance_of(C, side, y[X])
 
 
 @inline
@@ -66,7 +66,7 @@ def known_rate(C, peak, y, dy):
     rate = pressure_rate(C, side, y, dy)
     if peak < PEAK_TEMPERATURE:
         return rate
-    return rate + C[side].sign * y[V] / height_of(C, side, y[X])
+    return rate + C[side].sign * y[V] / clearance_of(C, side, y[X])
 
 
 @compiled

@@ -54,20 +54,20 @@ QUADRATURES = 9
 def gas_in(E, C, side, y):
     """What the laws are shown of the gas in a chamber."""
     c = C[side]
-    height = c.half_stroke + c.sign * y[POSITION]
-    volume = c.area * height
+    clearance = c.half_stroke + c.sign * y[POSITION]
+    volume = c.area * clearance
     p = y[PRESSURE + side]
     return Gas(
         p=p,
         T=p * volume / (c.mass * c.gas_constant),
         V=volume,
         p_motored=y[MOTORED_PRESSURE + side] if E.motored == 1.0 else p,
-        height=height,
+        clearance=clearance,
         bore=c.bore,
         mean_piston_speed=E.mean_piston_speed,
         wall_temperature=c.wall_temperature,
         burning=1.0 if c.mode == BURNING else 0.0,
-        height_rate=c.sign * y[VELOCITY],
+        clearance_rate=c.sign * y[VELOCITY],
         p_rate=0.0,
     )
 
@@ -92,7 +92,7 @@ def charge_in(E, C, side):
 @inline
 def heat_to_wall(P, side, gas, charge):
     """Heat flow to the wall [W]: Eq. 50."""
-    surface = pi * gas.bore**2 / 2.0 + pi * gas.bore * gas.height
+    surface = pi * gas.bore**2 / 2.0 + pi * gas.bore * gas.clearance
     h = heat_transfer_coefficient(P, side, gas, charge)
     return h * surface * (gas.T - gas.wall_temperature)
 

@@ -54,7 +54,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import charge_of, gas_of, height_of, refresh
+from saleg.kernel.rhs import charge_of, clearance_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
     friction_at_dead_centre,
@@ -134,7 +134,7 @@ def ignite(P, E, C, side, y, motored):
         E.next_step = min(E.next_step, FIRST_OF_BURN * c.duration)
     c.fuel_to_burn = c.combustion_efficiency * min(c.fuel, c.air / c.air_fuel_ratio)
     c.ignition_time = E.t
-    c.ignition_height = gas.height
+    c.ignition_height = gas.clearance
     if c.duration <= 0.0:
         burn_at_once(P, C, side, y, gas.T)
         end_combustion(P, E, C, side)
@@ -198,11 +198,11 @@ def renew_charge(P, E, C, side, y):
         end_combustion(P, E, C, side)
     before = internal_energy(P, C, side, y)
     c = C[side]
-    squeeze = c.half_stroke / height_of(C, side, y[X])
-    p = c.intake_pressure * squeeze**c.curve_exponent
-    T = c.intake_temperature * squeeze ** (c.curve_exponent - 1.0)
+    volume_ratio = c.half_stroke / clearance_of(C, side, y[X])
+    p = c.intake_pressure * volume_ratio**c.curve_exponent
+    T = c.intake_temperature * volume_ratio ** (c.curve_exponent - 1.0)
     compose_charge(P, C, side, y, p, T)
-    c.spent = 0.0
+    c.renewal_due = 0.0
     c.exhaust_energy += before - internal_energy(P, C, side, y)
 
 
@@ -210,8 +210,8 @@ def renew_charge(P, E, C, side, y):
 def compose_charge(P, C, side, y, p, T):
     """Fill a chamber with a charge at a pressure and a temperature, from what stood in it."""
     c = C[side]
-    height = height_of(C, side, y[X])
-    volume = c.area * height
+    clearance = clearance_of(C, side, y[X])
+    volume = c.area * clearance
     mass = p * volume / (c.gas_constant * T)
     fuel, air, burnt, fresh = gas_exchange_charge(
         P, side, mass, c.fuel, c.air, c.burnt, c.equivalence_ratio_wanted, c.air_fuel_ratio
@@ -227,7 +227,7 @@ def compose_charge(P, C, side, y, p, T):
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
     y[IGNITION + side] = 0.0
-    y[THETA + side] = log(p) + G0 * log(height / c.half_stroke)
+    y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
 
 
@@ -329,7 +329,7 @@ def misfires(E, C, side):
 def ports_due(E, C, side, y):
     """Whether a chamber stands at its ports, about to pass them."""
     c = C[side]
-    beyond = height_of(C, side, y[X]) - c.port
+    beyond = clearance_of(C, side, y[X]) - c.port
     slack = 1e-14 * E.length_scale
     outward = c.sign * E.direction
     if c.mode == OPEN:
@@ -343,7 +343,7 @@ def change_due(P, E, C, side, y):
     c = C[side]
     if c.mode == BURNING and E.t >= c.t_end:
         return EVENT_END_OF_COMBUSTION
-    if c.spent > 0.0:
+    if c.renewal_due > 0.0:
         return EVENT_CHARGE_RENEWAL
     if misfires(E, C, side):
         lit = c.armed == ARMED
@@ -394,7 +394,7 @@ def turn(P, E, C, y, peaks, tables, control):
     begin_stroke(E, C, y, peaks)
     for side in range(2):
         c = C[side]
-        c.spent = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
+        c.renewal_due = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
     if E.controlled == COMPILED:
         obey(P, E, C, ask(E, control), E.t - E.t_command)
 

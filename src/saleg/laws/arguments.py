@@ -16,7 +16,7 @@ class Gas(NamedTuple):
     p_motored : float
         Pressure the charge would have without combustion [Pa]; equals `p` unless the run
         integrates the motored pressure.
-    height : float
+    clearance : float
         Distance from piston crown to cylinder head [m].
     bore : float
         Bore of the chamber [m].
@@ -26,8 +26,8 @@ class Gas(NamedTuple):
         Temperature of head, liner and crown [K].
     burning : float
         1 while heat is being released, otherwise 0.
-    height_rate : float
-        Rate of the height [m/s], negative in compression.
+    clearance_rate : float
+        Rate of the clearance [m/s], negative in compression.
     p_rate : float
         Rate of the pressure [Pa/s]; shown to ignition laws only, 0 elsewhere.
     """
@@ -36,12 +36,12 @@ class Gas(NamedTuple):
     T: float
     V: float
     p_motored: float
-    height: float
+    clearance: float
     bore: float
     mean_piston_speed: float
     wall_temperature: float
     burning: float
-    height_rate: float = 0.0
+    clearance_rate: float = 0.0
     p_rate: float = 0.0
 
 

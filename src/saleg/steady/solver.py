@@ -273,9 +273,9 @@ def result_of(
 def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers."""
     heat = float(strokes["heat_released"].sum())
-    if engine.fires and not heat > 0.0:
+    if engine.has_combustion and not heat > 0.0:
         return Status.STALLED, "does not fire, it only swings:"
-    if engine.fires and not float(strokes["electrical_energy"].sum()) > 1e-9 * heat:
+    if engine.has_combustion and not float(strokes["electrical_energy"].sum()) > 1e-9 * heat:
         return Status.IDLING, "fires but delivers no power:"
     return Status.STEADY, "it is"
 
