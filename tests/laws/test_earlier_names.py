@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import saleg
-from saleg.compiler.compose import kernel_for
+from saleg.compiler.compose import kernel_for, methods_text
 from saleg.compiler.controllers import control_of
 from saleg.engine.controller import Controller
 from saleg.laws import Gas, GasProperties, HeatTransfer, StateLogic
@@ -107,12 +107,15 @@ def test_both_faces_of_an_earlier_law_are_those_of_todays(base):
     np.testing.assert_array_equal(*(run.cycles.to_numpy() for run in runs))
 
 
-def test_a_field_of_that_name_stays_the_laws_own(base):
+def test_a_field_of_that_name_stays_the_laws_own():
     law = OfItsOwnHeight()
     assert law.coefficient(GAS, None) == 2.0 * 2000.0 * 0.03
-    module = kernel_for(base.replace(heat_transfer=law)).module
-    composed = module.both_heat_transfer_coefficient.py_func
-    assert composed(law, GAS, None, None) == law.coefficient(GAS, None)
+    text = "\n".join(methods_text(OfItsOwnHeight, "coefficient", "one", HeatTransfer))
+    names = {"inline": lambda function: function}
+    exec(text, names)
+    assert "gas.clearance" in text
+    assert names["one_coefficient"](law, GAS, None) == law.coefficient(GAS, None)
+    assert "gas.height" not in text.replace("sized", "")
 
 
 def test_a_part_of_a_controller_by_its_earlier_name_compiles():

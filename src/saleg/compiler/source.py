@@ -117,20 +117,23 @@ class Borrowed:
         tree = _parse(method)
         _check_self(law, tree, self.owner)
         self._attributes = earlier_attributes(law)
-        return self._prepared(tree, method, name)
+        return self._prepared(tree, method, name, own=tree.args.args[0].arg)
 
     def _emit(self, tree: ast.FunctionDef) -> None:
         self.definitions.append("@inline\n" + ast.unparse(tree))
 
     def _prepared(
-        self, tree: ast.FunctionDef, function: Callable[..., Any], name: str
+        self, tree: ast.FunctionDef, function: Callable[..., Any], name: str, own: str | None = None
     ) -> ast.FunctionDef:
-        """A function under another name, with all it uses carried along."""
+        """A function under another name, with all it uses carried along.
+
+        `own` is the name a method has for its law, whose attributes are never renamed.
+        """
         renames = {
             used: self._resolve(used, value)
             for used, value in _globals_used(tree, function, self.owner).items()
         }
-        tree = _Renamer(renames, self._attributes).visit(tree)
+        tree = _Renamer(renames, ATTRIBUTES if own else self._attributes, own).visit(tree)
         tree.name = name
         tree.returns = None
         tree.decorator_list = []
@@ -186,14 +189,19 @@ class _Unannotated(ast.NodeTransformer):
 class _Renamer(ast.NodeTransformer):
     """Gives the globals a function uses, and attributes with an earlier name, their names here."""
 
-    def __init__(self, renames: dict[str, ast.expr], attributes: dict[str, str]):
+    def __init__(
+        self, renames: dict[str, ast.expr], attributes: dict[str, str], own: str | None = None
+    ):
         self.renames = renames
         self.attributes = attributes
+        self.own = own
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
         return self.renames.get(node.id, node)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+        if isinstance(node.value, ast.Name) and node.value.id == self.own:
+            return node
         self.generic_visit(node)
         node.attr = self.attributes.get(node.attr, node.attr)
         return node

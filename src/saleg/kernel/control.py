@@ -1,4 +1,4 @@
-"""What a controller is shown and what it sets at a dead centre.
+"""Signals and commands of a controller at a dead centre.
 
 A controller is compiled by itself (:mod:`saleg.compiler.controllers`), so that another one needs
 no other kernel; `control` is a :class:`saleg.kernel.tuples.Control`.
@@ -15,7 +15,7 @@ from saleg.laws.arguments import Commands
 
 @compiled
 def write_signals(E, signals):
-    """Fill a record of :class:`saleg.laws.Signals` with what is measured at a dead centre."""
+    """Fill a record of :class:`saleg.laws.Signals` with the measurements of a dead centre."""
     half = 0.5 * E.maximum_stroke
     signals.t = E.t
     signals.x = E.x_dead_centre
@@ -87,13 +87,13 @@ def in_force(E, load_weight, amplitude, equivalence_ratio, intake_temperature):
 
 @inline
 def standing(E):
-    """Where the actuators stand."""
+    """Commands as far as the actuators have followed them."""
     return in_force(E, E.load_weight, E.motor_amplitude, E.equivalence_ratio, E.intake_temperature)
 
 
 @inline
 def asked(E):
-    """What they were asked for last."""
+    """Commands as they were given last."""
     return in_force(
         E,
         E.asked_load_weight,
@@ -105,7 +105,7 @@ def asked(E):
 
 @compiled
 def obey(P, E, C, wanted, elapsed):
-    """Set what is commanded, as far as the actuators follow; refuse what they cannot do.
+    """Set commands, as far as the actuators follow; refuse what they cannot do.
 
     They have moved towards what was asked for last in the time elapsed since, for ever if this is
     the first command; towards what is wanted now they begin to move.

@@ -1,4 +1,4 @@
-"""Copies of what the laws are shown, with some fields changed: numba has no ``_replace``."""
+"""Copies of a gas with some fields changed: numba has no ``_replace``."""
 
 from saleg.kernel.jit import inline
 from saleg.laws.arguments import Gas

@@ -66,7 +66,7 @@ Z_LN_MASS_MOVING = Z_CHAMBERS + 2 * VECTOR_PER_SIDE
 
 @compiled
 def write_vector(E, C, y, z):
-    """State at a dead centre as a vector of numbers of the order of one."""
+    """Write the state at a dead centre as a vector of numbers of the order of one."""
     z[Z_POSITION] = y[X] / E.length_scale
     z[Z_LN_SPEED] = log(max(E.mean_piston_speed, 1e-300))
     z[Z_WEIGHT] = E.load_weight
@@ -96,7 +96,7 @@ def write_vector(E, C, y, z):
 
 @compiled
 def read_vector(E, C, y, z):
-    """Put a vector back; modes, and all that a vector does not say, stay as they are."""
+    """Set the state from a vector; modes, and all else that is not in it, stay as they are."""
     y[X] = z[Z_POSITION] * E.length_scale
     y[V] = 0.0
     E.x_dead_centre = y[X]
@@ -367,7 +367,7 @@ def image_of(mapping, iterates):
 
 @cached
 def do_orbit(task, mapping, max_maps, tolerance, iterates, found):
-    """Find a fixed point, take its image or a cycle from it: one entry, compiled once."""
+    """Entry point: find a fixed point, or take the image of a vector or a cycle from it."""
     if task == FIND:
         return find_orbit(mapping, max_maps, tolerance, iterates, found[0])
     if task == CYCLE:

@@ -52,7 +52,7 @@ QUADRATURES = 9
 
 @inline
 def gas_in(E, C, side, y):
-    """What the laws are shown of the gas in a chamber."""
+    """Gas in a closed chamber, as the laws see it."""
     c = C[side]
     clearance = c.half_stroke + c.sign * y[POSITION]
     volume = c.area * clearance
@@ -74,7 +74,7 @@ def gas_in(E, C, side, y):
 
 @inline
 def charge_in(E, C, side):
-    """What the laws are shown of the charge."""
+    """Charge since port closing, as the laws see it."""
     c = C[side]
     return Charge(
         mass=c.mass,

@@ -73,7 +73,7 @@ def ln_temperature(C, side, y):
 
 @inline
 def gas_at(E, C, side, x, v, ln_p, ln_p_motored):
-    """What the laws are shown of the gas in a closed chamber."""
+    """Gas in a closed chamber, as the laws see it."""
     c = C[side]
     p = exp(ln_p)
     clearance = clearance_of(C, side, x)
@@ -95,7 +95,7 @@ def gas_at(E, C, side, x, v, ln_p, ln_p_motored):
 
 @inline
 def gas_of(E, C, side, y, motored):
-    """The same from a state vector."""
+    """Gas in a closed chamber from a state vector."""
     shift = G0 * ln_clearance_of(C, side, y[X])
     ln_p = y[THETA + side] - shift
     ln_p_motored = y[MOTORED + side] - shift if motored else ln_p
@@ -113,7 +113,7 @@ def logarithms_of(C, side, ln_clearance, ln_p, constants):
 
 @inline
 def charge_of(E, C, side):
-    """What the laws are shown of the charge since port closing."""
+    """Charge since port closing, as the laws see it."""
     c = C[side]
     return Charge(
         mass=c.mass,
@@ -243,7 +243,7 @@ def rhs(P, E, C, t, y, dy, motored):
 
 @compiled
 def refresh(P, E, C, y):
-    """Compute what stays the same until the next event."""
+    """Compute the numbers that stay the same until the next event."""
     for side in range(2):
         c = C[side]
         if c.mode == OPEN:

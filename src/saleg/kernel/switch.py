@@ -1,4 +1,4 @@
-"""What happens at an event: modes change, charges are composed, regulators act."""
+"""Changes at an event: modes switch, charges are composed, regulators act."""
 
 from math import isfinite, log
 
@@ -159,7 +159,7 @@ def burn_at_once(P, C, side, y, T):
 
 @compiled
 def end_combustion(P, E, C, side):
-    """Turn what has burnt from fuel and air into burnt gas."""
+    """Turn the fuel burnt, and its air, into burnt gas."""
     c = C[side]
     fuel = burnt_mass(P, C, side, E.t)
     c.fuel -= fuel
@@ -208,7 +208,7 @@ def renew_charge(P, E, C, side, y):
 
 @compiled
 def compose_charge(P, C, side, y, p, T):
-    """Fill a chamber with a charge at a pressure and a temperature, from what stood in it."""
+    """Compose a fresh charge at a pressure and a temperature from the contents of the chamber."""
     c = C[side]
     clearance = clearance_of(C, side, y[X])
     volume = c.area * clearance
@@ -274,7 +274,7 @@ def write_stroke(P, E, C, y, peaks, row):
 
 @compiled
 def begin_stroke(E, C, y, peaks):
-    """Clear what is counted per stroke."""
+    """Reset the quantities that are counted per stroke."""
     for n in range(N_STATE, N_ALL):
         y[n] = 0.0
     for peak in range(N_PEAKS):
@@ -379,7 +379,7 @@ def change_mode(P, E, C, O, side, y, kind):
 
 @compiled
 def turn(P, E, C, y, peaks, tables, control):
-    """Dead centre: close the books of the stroke, let the regulators act, turn around."""
+    """Dead centre: write the row of the stroke, let the regulators act, reverse the direction."""
     if isfinite(E.x_dead_centre) and E.t > E.t_dead_centre:
         filled = tables.filled[0]
         write_stroke(P, E, C, y, peaks, tables.strokes[filled.strokes])
