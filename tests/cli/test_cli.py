@@ -162,9 +162,9 @@ def test_a_run_that_ends_badly_is_still_shown(capsys):
 
 
 def test_laws_are_changed_by_name(capsys):
-    words = ["--set", "heat_transfer=NoHeatTransfer", "--set", "name=adiabatic"]
+    words = ["--set", "friction=FrictionShare", "--set", "name=tuned"]
     assert run("thesis-base", *words, "--duration", "0.5") == 0
-    assert capsys.readouterr().out.startswith("adiabatic: ")
+    assert capsys.readouterr().out.startswith("tuned: ")
 
 
 def test_settings_reach_the_integrator(capsys, monkeypatch):
