@@ -121,7 +121,7 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
 def is_dead(engine: Engine, cycle: np.ndarray) -> bool:
     """Whether an engine with cylinders neither fires in a cycle nor is motored."""
     driven = float(cycle["alternator_work"].sum()) < 0.0
-    return engine.fires and not driven and not float(cycle["heat_released"].sum()) > 0.0
+    return engine.has_combustion and not driven and not float(cycle["heat_released"].sum()) > 0.0
 
 
 def is_idling(engine: Engine, cycle: np.ndarray) -> bool:

@@ -15,7 +15,7 @@ from saleg.kernel import layout
 from saleg.kernel.events import pressure_and_temperature
 from saleg.laws.base import GasProperties
 from saleg.simulation.initial_state import State
-from saleg.steady.return_map import NoReturn, ReturnMap, conserved_entries, is_adiabatic
+from saleg.steady.return_map import NoReturn, ReturnMap, Search, conserved_entries, is_adiabatic
 from saleg.steady.stability import FINE
 
 #: Distance from the fixed point, in the numbers of order one a state is written in, within which a
@@ -29,7 +29,7 @@ MOST_JUMPS = 30
 
 def find_settled(
     chart: ReturnMap, most: int, tolerance: float, patient: bool = True
-) -> tuple[int, np.ndarray, int]:
+) -> tuple[Search, int]:
     """Look for a fixed point that is near in all states, the slow ones included.
 
     Parameters
@@ -44,24 +44,22 @@ def find_settled(
 
     Returns
     -------
-    code : int
-        Why it ended, as a code of the layout.
-    found : ndarray
-        Maps taken at last, residual of the last one, residual of the whole cycle after it.
+    found : Search
+        The last of all searches.
     strokes : int
         Strokes integrated in all, verifying cycles included.
     """
     strokes, slow = 0, False
     begin, smallest = chart.state.copy(), SLOW
     for _ in range(MOST_JUMPS):
-        code, found = chart.find(most, tolerance)
-        settled = code == layout.END_OF_TIME
-        strokes += int(found[0] * chart.strokes_per_map) + (2 if settled else 0)
+        found = chart.find(most, tolerance)
+        settled = found.code == layout.END_OF_TIME
+        strokes += int(found.maps * chart.strokes_per_map) + (2 if settled else 0)
         if not settled:
-            nearer = code == layout.NOT_FOUND and found[0] > 0.0 and found[1] < smallest
-            if not (patient and nearer):
-                return code, found, strokes
-            smallest = found[1]
+            unsettled = found.code == layout.NOT_FOUND and found.maps > 0.0
+            if not (patient and unsettled and found.residual < smallest):
+                return found, strokes
+            smallest = found.residual
         # What was slow once is known too badly from two residuals: there the next jump decides.
         if slow or not settled or not is_near(chart, NEAR * tolerance):
             slow, jump = True, newton_step(chart)
@@ -71,8 +69,8 @@ def find_settled(
                 chart.jump(jump)
                 continue
         if not give_back_entropy(chart, begin, NEAR * tolerance):
-            return code, found, strokes
-    return layout.NOT_FOUND, found, strokes
+            return found, strokes
+    return found._replace(code=layout.NOT_FOUND), strokes
 
 
 def is_near(chart: ReturnMap, distance: float) -> bool:
@@ -82,7 +80,7 @@ def is_near(chart: ReturnMap, distance: float) -> bool:
     Aitken. The second residual is that of a whole cycle, for a map of half a cycle ``m (m + 1) a``:
     next to m = 1 that leaves ``3/2 a b / (2 a - b)``.
     """
-    first, second = chart.vectors[1], chart.vectors[2] - chart.vectors[0]
+    first, second = chart.iterates.residual, chart.iterates.image - chart.iterates.point
     usual, share = (2.0, 1.5) if chart.mirrored else (1.0, 1.0)
     far = share * np.abs(first * second) > distance * np.abs(usual * first - second)
     return not far.any() or not set(np.flatnonzero(far)) - conserved_entries(chart.engine)

@@ -20,6 +20,7 @@ from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError
 from saleg.kernel import layout
+from saleg.kernel.tuples import Snapshots
 from saleg.quantities import is_number
 from saleg.simulation.initial_state import natural_period, prepare
 from saleg.simulation.integration import (
@@ -33,7 +34,7 @@ from saleg.simulation.outcome import is_dead, is_idling
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.status import Status
-from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
+from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
 from saleg.steady.slow_states import find_settled
 from saleg.steady.stability import Stability, stability
 
@@ -291,13 +292,14 @@ def _solved(engine: Engine, rtol: float, most: int, quick: bool) -> SteadyState:
         state = prepare(replace(engine, start=start))
         most_steps = QUICK_STEPS if quick else STEPS_PER_CALL
         chart = ReturnMap.of(engine, state, rtol, mirrored, most_steps)
-        code, found, strokes = find_settled(chart, most, RESIDUAL * rtol, not quick)
+        found, strokes = find_settled(chart, most, RESIDUAL * rtol, not quick)
+        cycled = found.code == layout.END_OF_TIME
         spent += strokes
         evaluations += chart.evaluations
-        if mirrored and code == layout.END_OF_TIME and found[2] > MIRROR_MISSED * rtol:
+        if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
             continue  # unstable, or not as symmetric as it looks
-        if converged(code, found, rtol):
-            return result_of(chart, spent, evaluations, float(found[2]), "fixed point", rtol)
+        if converged(found, rtol):
+            return result_of(chart, spent, evaluations, found.missed, "fixed point", rtol)
     if quick:
         return not_found(engine, spent, evaluations, "no orbit from the standard starts")
     return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
@@ -325,9 +327,9 @@ def fuel_energy(chamber: Chamber) -> float:
     return standard_charge(chamber)[1] * float(chamber.fuel.lower_heating_value)
 
 
-def converged(code: int, found: np.ndarray, tolerance: float) -> bool:
+def converged(found: Search, tolerance: float) -> bool:
     """Whether a fixed point was found and a whole cycle from it comes back to it."""
-    return code == layout.END_OF_TIME and found[2] <= MOST_MISSED * tolerance
+    return found.code == layout.END_OF_TIME and found.missed <= MOST_MISSED * tolerance
 
 
 def result_of(
@@ -336,7 +338,7 @@ def result_of(
     """What a converged map has found."""
     chart.begin_on_the_left()
     engine, strokes = chart.engine, chart.strokes[:2].copy()
-    snapshot = tuple(part.copy() for part in chart.snapshot)
+    snapshots = Snapshots(*(part.copy() for part in chart.snapshots))
     settings = Settings(duration=0.0, rtol=rtol, motored_pressure=needs_motored_pressure(engine))
     status, what = _kind(engine, strokes)
     symmetry = "half-cycle map, mirrored" if chart.mirrored else "full-cycle map"
@@ -353,7 +355,7 @@ def result_of(
         residual=residual,
         method=method,
         strokes=strokes,
-        replay=Replay(engine, snapshot, settings),
+        replay=Replay(engine, snapshots, settings),
     )
 
 
