@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saleg.compiler.cache import locked, usable_folder, write_atomically
-from saleg.compiler.source import Borrowed, NoSource, check_law, fingerprint
+from saleg.compiler.source import Borrowed, NoSource, check_law, earlier_attributes, fingerprint
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.errors import LawError
 from saleg.kernel import jit
@@ -38,7 +38,14 @@ if TYPE_CHECKING:
     from saleg.engine.controller import Controller
 
 PACKAGE = Path(__file__).resolve().parent.parent
-BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py", "kernel/call_at.py")
+BEFORE_SLOTS = (
+    "laws/arguments.py",
+    "kernel/copies.py",
+    "kernel/tuples.py",
+    "kernel/logarithms.py",
+    "kernel/layout.py",
+    "kernel/call_at.py",
+)
 INTEGRATOR = (
     "rhs",
     "step",
@@ -453,7 +460,9 @@ def methods_text(
     except NoSource:
         if injected is None:
             raise
-        injected[f"{prefix}_{method}{'__plain' if eases else ''}"] = _jitted(function)
+        injected[f"{prefix}_{method}{'__plain' if eases else ''}"] = _jitted(
+            function, earlier_attributes(law)
+        )
         return [NOT_EASED.format(name=f"{prefix}_{method}")] if eases else []
     return borrowed.definitions
 
@@ -513,19 +522,23 @@ def _load_from_memory(
     return Kernel(execute(text, f"<saleg kernel {next(_numbers)}>", injected), None, own)
 
 
-def _jitted(function: Callable[..., Any], seen: dict[int, Any] | None = None) -> Any:
-    """Compile a function without source, and the functions it uses."""
+def _jitted(
+    function: Callable[..., Any], attributes: dict[str, str], seen: dict[int, Any] | None = None
+) -> Any:
+    """Compile a function without source, and the functions it uses, some attributes renamed."""
     import numba
 
     seen = {} if seen is None else seen
     if id(function) in seen:
         return seen[id(function)]
     names = {
-        name: _jitted(value, seen) if isinstance(value, types.FunctionType) else value
+        name: _jitted(value, attributes, seen) if isinstance(value, types.FunctionType) else value
         for name, value in inspect.getclosurevars(function).globals.items()
     }
+    code = function.__code__
+    code = code.replace(co_names=tuple(attributes.get(name, name) for name in code.co_names))
     copy = types.FunctionType(
-        function.__code__, names, function.__name__, function.__defaults__, function.__closure__
+        code, names, function.__name__, function.__defaults__, function.__closure__
     )
     seen[id(function)] = numba.njit(forceinline=True, error_model="numpy", nogil=True)(copy)
     return seen[id(function)]

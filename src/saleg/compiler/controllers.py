@@ -26,6 +26,7 @@ from saleg.compiler.compose import (
 from saleg.compiler.source import NoSource, fingerprint
 from saleg.errors import LawError
 from saleg.kernel import jit, layout
+from saleg.kernel.tuples import Control
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS
 
@@ -33,10 +34,6 @@ if TYPE_CHECKING:
     from saleg.compiler.compose import Lengths
     from saleg.engine.controller import Controller
     from saleg.laws import Law
-
-#: What the kernel is handed: address of a function, numbers, and room for what it holds, is shown
-#: and commands.
-Control = tuple[int, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 ENTRY = """\
 _pointer = numba.types.CPointer(numba.types.float64)
@@ -72,8 +69,14 @@ def nobody() -> Control:
 
 
 def _with_room(address: int, numbers: np.ndarray) -> Control:
-    held = np.zeros(layout.CONTROL_PARTS * layout.HELD)
-    return address, numbers, held, np.zeros(len(Signals._fields)), np.zeros(len(Commands._fields))
+    commands = np.full(2 * len(Commands._fields), np.nan).view(layout.COMMANDS_RECORD)
+    return Control(
+        address=address,
+        numbers=numbers,
+        memory=np.zeros(layout.CONTROL_PARTS * layout.MEMORY),
+        signals=np.zeros(1, layout.SIGNALS_RECORD),
+        commands=commands,
+    )
 
 
 @lru_cache(maxsize=128)
@@ -152,7 +155,7 @@ def _body(places: list[str], count: int) -> str:
     signals = ", ".join(f"s[{n}]" for n in range(len(Signals._fields)))
     lines = [
         f"p = numba.carray(numbers_at, ({count},))",
-        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.HELD}))",
+        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.MEMORY}))",
         f"s = numba.carray(signals_at, ({len(Signals._fields)},))",
         f"c = numba.carray(commands_at, ({len(Commands._fields)},))",
         f"wanted = decide(all_numbers({', '.join(places)}), h, Signals({signals}))",

@@ -297,6 +297,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
     options = options_record(Settings(duration, adaptive=False, step=step), duration)
     forces = np.full(int(delay) + 1, _gas_force(state))
     work = tuple(np.zeros(layout.N_ALL) for _ in range(3))
+    tables, control = records.tables, nobody()
     P, code = parameters(engine), layout.BUFFER_FULL
     while code == layout.BUFFER_FULL:
         code = kernel.call(
@@ -309,11 +310,9 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
             int(delay),
             forces,
             options,
-            records.strokes,
-            records.events,
-            records.filled,
+            tables,
             work,
-            nobody(),
+            control,
         )
         records.make_room()
     strokes = records.kept_strokes.joined()
