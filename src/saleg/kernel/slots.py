@@ -136,9 +136,10 @@ def alternator_electrical_power(P: Any, held: float, motion: Motion) -> float:
     return P.alternator.electrical_power(held, motion)
 
 
-def call_at(address: int, numbers: int, held: int, signals: int, commands: int) -> None:
-    """Call a controller by its address."""
-    CFUNCTYPE(None, *[c_void_p] * 4)(address)(numbers, held, signals, commands)
+def call_at(address: Any, numbers: int, held: int, signals: int, commands: int) -> None:
+    """Call a controller by its address; one of Python stands there itself."""
+    entry = address if callable(address) else CFUNCTYPE(None, *[c_void_p] * 4)(address)
+    entry(numbers, held, signals, commands)
 
 
 def state_logic_motors(P: Any, held: Any, signals: Signals) -> float:

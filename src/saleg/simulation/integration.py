@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.compose import kernel_for, needs_motored_pressure, parameters
-from saleg.compiler.controllers import control_of, nobody
+from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout, tableaus
@@ -206,21 +205,19 @@ class Course:
         settings: Settings,
         controller: Controller | None = None,
     ):
-        if needs_motored_pressure(engine):
+        if engine.needs_motored_pressure:
             settings = replace(settings, motored_pressure=True)
         self.engine, self.state, self.settings = engine, state, settings
         self.controller = controller
-        actuators = controller.actuators if controller is not None else None
-        self.kernel = kernel_for(engine, actuators=actuators)
-        asks = controller is not None and state.engine["controlled"][0] == layout.COMPILED
-        self._control = control_of(controller) if asks and controller else nobody()
+        asks = state.engine["controlled"][0] == layout.COMPILED
+        self.kernel, parameters, self._control = compiled_engine(engine, controller, asks=asks)
         self.options = options_record(settings, state.time + settings.duration)
         self.records = Records(bool(settings.history), settings.keep_cycles)
         self.snapshot = _snapshot(state)
         method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
         order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
         self._before = (
-            parameters(engine, actuators),
+            parameters,
             state.engine,
             state.chambers,
             state.y,

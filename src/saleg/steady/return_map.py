@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from saleg.compiler.compose import Kernel, kernel_for, needs_motored_pressure, parameters
-from saleg.compiler.controllers import nobody
+from saleg.compiler.compiled_engine import compiled_engine
+from saleg.compiler.kernel import Kernel
 from saleg.compiler.source import fingerprint
 from saleg.engine import BounceChamber, Engine
 from saleg.kernel import layout, tableaus
@@ -97,7 +97,7 @@ class ReturnMap:
             duration=math.inf,
             rtol=rtol,
             peaks=0,
-            motored_pressure=needs_motored_pressure(engine),
+            motored_pressure=engine.needs_motored_pressure,
         )
         E = state.engine[0]
         options = options_record(settings, math.inf)
@@ -109,8 +109,9 @@ class ReturnMap:
             np.zeros((2, 2), layout.CHAMBER_RECORD),
             np.zeros((2, layout.N_ALL)),
         )
+        kernel, parameters, control = compiled_engine(engine)
         arguments = (
-            parameters(engine),
+            parameters,
             state.engine,
             state.chambers,
             state.y,
@@ -124,9 +125,8 @@ class ReturnMap:
             np.zeros(3, np.int64),
             snapshot,
             work_space(len(tableaus.ADAPTIVE.b)),
-            nobody(),
+            control,
         )
-        kernel = kernel_for(engine)
         address = kernel.address("run_on", arguments)
         run = (arguments, address, np.zeros(1, layout.CHAMBER_RECORD))
         return cls(engine, kernel, state, mirrored, strokes, snapshot, run)
@@ -245,7 +245,7 @@ def constant_entries(engine: Engine) -> set[int]:
         if isinstance(chamber, BounceChamber):
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
             kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED}
-        if not needs_motored_pressure(engine):
+        if not engine.needs_motored_pressure:
             kept.add(first + Z_LN_MOTORED)
     return kept
 

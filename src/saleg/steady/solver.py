@@ -14,7 +14,6 @@ from functools import cached_property
 
 import numpy as np
 
-from saleg.compiler.compose import check_laws, needs_motored_pressure
 from saleg.engine import Engine
 from saleg.engine.start import CompressedCharge, Start
 from saleg.kernel import layout
@@ -183,7 +182,7 @@ def steady_state(
     if not isinstance(most, (int, np.integer)) or most < 0:
         raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
     engine.validate()
-    check_laws(engine)
+    engine.check_laws()
     if not repeats_itself(engine):
         return waited_for(engine, rtol, 0, 0, "a law depends on time or counts charges")
     found = _solved(engine, rtol, int(most))
@@ -248,7 +247,7 @@ def result_of(
     """What a converged map has found."""
     engine, strokes = chart.engine, chart.strokes[:2].copy()
     snapshot = tuple(part.copy() for part in chart.snapshot)
-    settings = Settings(duration=0.0, rtol=rtol, motored_pressure=needs_motored_pressure(engine))
+    settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
     status, what = _kind(engine, strokes)
     symmetry = "half-cycle map, mirrored" if chart.mirrored else "full-cycle map"
     message = (
