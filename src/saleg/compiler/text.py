@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from saleg.compiler import machine_code
 from saleg.compiler.module import without_source
 from saleg.compiler.records import OTHER_SLOTS
 from saleg.compiler.source import Borrowed, NoSource
@@ -22,7 +23,9 @@ from saleg.laws.base import CHAMBER_SLOTS
 
 PACKAGE = Path(__file__).resolve().parent.parent
 #: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
-BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py", "kernel/call_at.py")
+BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py", "compiler/call_at.py")
+#: How the search for steady states calls the integrator, and how if numba has no addresses.
+RUN_AT, RUN_PLAINLY = "compiler/run_at.py", "kernel/run_plainly.py"
 #: Modules of the kernel that make up the integrator.
 INTEGRATOR = (
     "rhs",
@@ -94,6 +97,8 @@ def compose(
     for (name, base), law in zip(OTHER_SLOTS.items(), rest, strict=True):
         parts += _engine_slot(name, base, law, injected)
     parts += [own_text(f"kernel/{name}.py") for name in modules]
+    if "orbit" in modules:
+        parts.append(own_text(RUN_AT if machine_code.has_addresses() else RUN_PLAINLY))
     text = "\n".join(parts) + "\n"
     _check_names(text)
     return text

@@ -1,10 +1,12 @@
-"""The integrator called as Python; in a composed module it is called by its address."""
+"""The integrator called by name; a composed module calls it by its address where numba can."""
 
 from typing import Any
 
 from saleg.kernel.integrate import run_on
+from saleg.kernel.jit import inline
 
 
+@inline
 def run_at(address: int, arguments: tuple[Any, ...]) -> int:
-    """Call the integrator: in plain Python there is but one, so the address says nothing."""
+    """Call the integrator: by name there is but one, so the address says nothing."""
     return int(run_on(*arguments))
