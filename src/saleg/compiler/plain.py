@@ -1,7 +1,7 @@
 """The kernel without compilation, for debuggers and coverage: ``NUMBA_DISABLE_JIT=1``.
 
 Nothing is composed. The modules of :mod:`saleg.kernel` run as they stand in their files, and a law
-is the method its author wrote, so that a breakpoint in either is met. A thousand times slower.
+is the method its author wrote, so that a breakpoint in either is met. Some thousand times slower.
 """
 
 from __future__ import annotations
