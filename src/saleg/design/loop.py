@@ -266,15 +266,14 @@ def near_state(engine: Engine, near: SteadyState) -> State | None:
     chambers are not in the same modes there.
     """
     assert near.replay is not None
-    E, C, y = (part[1] for part in near.replay.snapshot)
-    position = float(y[layout.X]) / (0.5 * near.engine.maximum_stroke)
-    burning = float(C[0]["mode"] == layout.BURNING)
+    theirs = near.replay.start
+    position = float(theirs.y[layout.X]) / (0.5 * near.engine.maximum_stroke)
+    burning = float(theirs.chambers[0]["mode"] == layout.BURNING)
     state = prepare(replace(engine, start=CompressedCharge(position=position, burning=burning)))
-    if [*state.chambers["mode"]] != [*C["mode"]]:
+    if [*state.chambers["mode"]] != [*theirs.chambers["mode"]]:
         return None
     z = np.empty(layout.N_VECTOR)
-    theirs = State(E.reshape(1), C, y, np.zeros(layout.N_PEAKS))
-    write_vector(*theirs.records, y, z)
+    write_vector(*theirs.records, theirs.y, z)
     read_vector(*state.records, state.y, z)
     return state
 
@@ -293,9 +292,9 @@ def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way) -> _Orbit:
     spent, operation = 0, Operation.guess(chart.engine)
     for _ in range(MOST_ORBITS):
         way(chart.state, design, operation)
-        code, found = chart.find(MOST_MAPS, RESIDUAL * rtol)
-        spent += int(found[0] * chart.strokes_per_map)
-        if code != layout.END_OF_TIME:
+        found = chart.find(MOST_MAPS, RESIDUAL * rtol)
+        spent += int(found.maps * chart.strokes_per_map)
+        if found.code != layout.END_OF_TIME:
             break
         spent += 2
         operation = Operation.of_strokes(chart.strokes[:2])
@@ -303,7 +302,7 @@ def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way) -> _Orbit:
         if abs(_mass(design, operation) / mass - 1.0) <= MASS_TOLERANCE * rtol:
             chart.engine = dataclasses.replace(chart.engine, translator=Translator(mass))
             _give_mass(chart)
-            return _Orbit(converged(code, found, rtol), spent, float(found[2]), operation)
+            return _Orbit(converged(found, rtol), spent, found.missed, operation)
     return _Orbit(False, spent, math.nan, operation)
 
 
@@ -335,7 +334,7 @@ def _set_law(state: State, design: Design, operation: Operation) -> None:
 
 def _give_mass(chart: ReturnMap) -> None:
     """From now on the mass is given: what disturbs the orbit does not rebuild the engine."""
-    for record in (chart.state.engine, chart.snapshot[0]):
+    for record in (chart.state.engine, chart.snapshots.engine):
         for name in LAW:
             record[name] = 0.0
 

@@ -78,11 +78,14 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     if start is None:
         return Status.COMPLETED, f"ran to t = {t:.6g} s, less than a cycle; try a longer run"
     cycle = strokes[start : start + 2]
-    if engine.fires and not cycle["heat_released"].sum() > 0.0:
+    if engine.has_combustion and not cycle["heat_released"].sum() > 0.0:
         fired = np.flatnonzero(strokes["heat_released"].sum(axis=1) > 0.0)
         since = f"since t = {float(strokes['t'][fired[-1]]):.6g} s" if len(fired) else "at all"
         return Status.STALLED, f"ran to t = {t:.6g} s but has not fired {since}; {_STALL_HINT}"
-    if engine.fires and not cycle["electrical_energy"].sum() > 1e-9 * cycle["heat_released"].sum():
+    if (
+        engine.has_combustion
+        and not cycle["electrical_energy"].sum() > 1e-9 * cycle["heat_released"].sum()
+    ):
         weight = float(cycle["load_weight"][-1])
         why = (
             "the alternator gives none; try a larger load or efficiency"

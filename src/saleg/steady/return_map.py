@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from functools import lru_cache
 from types import CodeType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -24,13 +24,16 @@ from saleg.kernel.orbit import (
     Z_CHAMBERS,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
+    strokes_per_map,
     write_vector,
 )
+from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
 from saleg.laws import NoHeatTransfer, NoMisfires
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Alternator, Law
 from saleg.simulation.initial_state import State
-from saleg.simulation.integration import Settings, options_record, work_space
+from saleg.simulation.integration import Settings, options_record
+from saleg.simulation.kernel_arguments import arguments_of
 
 #: Longest time to the next return, over the natural time of half a stroke.
 LONGEST = 200.0
@@ -62,6 +65,27 @@ class NoReturn(Exception):
         self.code = code
 
 
+class Search(NamedTuple):
+    """How a search for a fixed point, or a cycle from a given state, has ended.
+
+    Attributes
+    ----------
+    code : int
+        Why the integrator came back, as a code of :mod:`saleg.kernel.layout`.
+    maps : float
+        Maps taken.
+    residual : float
+        How far the last image is from its point [-].
+    missed : float
+        How far the whole cycle after it misses its start [-].
+    """
+
+    code: int
+    maps: float
+    residual: float
+    missed: float
+
+
 @dataclass
 class ReturnMap:
     """Return map of an engine, with the records it works on.
@@ -76,10 +100,8 @@ class ReturnMap:
         Whether the map is that of half a cycle, seen in the mirror.
     strokes : ndarray of STROKE_RECORD
         Rows of the latest map.
-    snapshot : tuple of ndarray
-        States at the last two left dead centres.
-    run : tuple
-        Arguments of the integrator, its address, and a spare chamber.
+    mapping : ReturnMapping
+        Arguments of the compiled map.
     """
 
     engine: Engine
@@ -87,8 +109,7 @@ class ReturnMap:
     state: State
     mirrored: bool
     strokes: np.ndarray
-    snapshot: tuple[np.ndarray, ...]
-    run: tuple[Any, ...]
+    mapping: ReturnMapping
 
     @classmethod
     def of(cls, engine: Engine, state: State, rtol: float, mirrored: bool) -> ReturnMap:
@@ -104,88 +125,62 @@ class ReturnMap:
         options["events"] = 0
         options["longest"] = LONGEST * E["length_scale"] / E["speed_scale"]
         strokes = np.zeros(4, layout.STROKE_RECORD)
-        snapshot = (
-            np.zeros(2, layout.ENGINE_RECORD),
-            np.zeros((2, 2), layout.CHAMBER_RECORD),
-            np.zeros((2, layout.N_ALL)),
+        tables = Tables(
+            strokes=strokes,
+            events=np.zeros(0, layout.EVENT_RECORD),
+            history=np.zeros(0, layout.HISTORY_RECORD),
+            filled=np.zeros(1, layout.FILLED_RECORD),
         )
-        kernel, parameters, control = compiled_engine(engine)
-        arguments = (
-            parameters,
-            state.engine,
-            state.chambers,
-            state.y,
-            state.peaks,
-            tuple(tableaus.ADAPTIVE),
-            tableaus.ADAPTIVE_ORDER,
-            options,
-            strokes,
-            np.zeros(0, layout.EVENT_RECORD),
-            np.zeros(0, layout.HISTORY_RECORD),
-            np.zeros(3, np.int64),
-            snapshot,
-            work_space(len(tableaus.ADAPTIVE.b)),
-            control,
+        compiled = compiled_engine(engine)
+        arguments = arguments_of(
+            compiled,
+            state,
+            tableau=tableaus.ADAPTIVE,
+            order=tableaus.ADAPTIVE_ORDER,
+            options=options,
+            tables=tables,
         )
-        address = kernel.address("run_on", arguments)
-        run = (arguments, address, np.zeros(1, layout.CHAMBER_RECORD))
-        return cls(engine, kernel, state, mirrored, strokes, snapshot, run)
+        mapping = ReturnMapping(
+            integration=arguments,
+            address=compiled.kernel.address("run_on", (arguments,)),
+            spare_chamber=np.zeros(1, layout.CHAMBER_RECORD),
+            mirrored=mirrored,
+        )
+        return cls(engine, compiled.kernel, state, mirrored, strokes, mapping)
+
+    @property
+    def snapshots(self) -> Snapshots:
+        """States at the last two left dead centres."""
+        return self.mapping.integration.snapshots
 
     @property
     def strokes_per_map(self) -> float:
         """Strokes from one return to the next."""
-        return 1.0 if self.mirrored else 2.0
+        return strokes_per_map(self.mirrored)
 
     @property
     def evaluations(self) -> int:
         """Right-hand sides evaluated so far."""
         return int(self.state.engine["evaluations"][0])
 
-    def find(self, most: int, tolerance: float) -> tuple[int, np.ndarray]:
-        """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit).
-
-        Returns
-        -------
-        code : int
-            Why it ended, as a code of the layout.
-        found : ndarray
-            Maps taken, residual of the last one, residual of the whole cycle after it.
-        """
-        vectors = self._vectors()
-        return self._do(FIND, vectors, most, tolerance)
+    def find(self, max_maps: int, tolerance: float) -> Search:
+        """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit)."""
+        return self._do(FIND, _iterates(), max_maps, tolerance)
 
     def _do(
-        self, task: int, vectors: tuple[np.ndarray, ...], most: int = 0, tolerance: float = 0.0
-    ) -> tuple[int, np.ndarray]:
-        """Call the compiled entry point; returns its code and what it found."""
-        found = np.zeros(3)
+        self, task: int, iterates: Iterates, max_maps: int = 0, tolerance: float = 0.0
+    ) -> Search:
+        """Call the compiled entry point."""
+        found = np.zeros(1, layout.SEARCH_RECORD)
         code = self.kernel.call(
-            "do_orbit",
-            task,
-            self.run,
-            self.strokes_per_map,
-            self.mirrored,
-            most,
-            tolerance,
-            vectors,
-            np.zeros(2, np.int64),
-            found,
+            "do_orbit", task, self.mapping, max_maps, tolerance, iterates, found
         )
-        return int(code), found
+        return Search(int(code), *found[0].tolist())
 
-    def cycle(self, start: State, z: np.ndarray) -> tuple[int, float]:
-        """One whole cycle from a vector, recorded; the code of its end and how far it misses."""
+    def cycle(self, start: State, z: np.ndarray) -> Search:
+        """One whole cycle from a vector, recorded."""
         self.reset(start)
-        vectors = self._vectors()
-        vectors[0][:] = z
-        code, found = self._do(CYCLE, vectors)
-        return code, float(found[2])
-
-    def _vectors(self) -> tuple[np.ndarray, ...]:
-        """Room for points, residuals and images."""
-        n = layout.N_VECTOR
-        old = np.zeros((2, DEPTH, n))
-        return np.zeros(n), np.zeros(n), np.zeros(n), old[0], old[1], np.zeros((DEPTH, DEPTH + 2))
+        return self._do(CYCLE, _iterates(z))
 
     def reset(self, state: State) -> None:
         """Go to a copy of a state."""
@@ -203,12 +198,12 @@ class ReturnMap:
             If there is none.
         """
         self.reset(start)
-        vectors = self._vectors()
-        vectors[0][:] = z
-        code, _ = self._do(IMAGE, vectors)
+        iterates = _iterates(z)
+        code = self._do(IMAGE, iterates).code
         if code != layout.END_OF_TIME:
             raise NoReturn(code)
-        return vectors[2]
+        image: np.ndarray = iterates.image
+        return image
 
     def vector(self, state: State) -> np.ndarray:
         """A state as a vector."""
@@ -233,6 +228,20 @@ class ReturnMap:
             difference = self.image(start, ahead) - self.image(start, behind)
             matrix[:, n] = difference / (2.0 * DIFFERENCE)
         return matrix
+
+
+def _iterates(point: np.ndarray | None = None) -> Iterates:
+    """Room for points, residuals and images; begins at a point."""
+    n = layout.N_VECTOR
+    return Iterates(
+        point=np.zeros(n) if point is None else point.copy(),
+        residual=np.zeros(n),
+        image=np.zeros(n),
+        points=np.zeros((DEPTH, n)),
+        residuals=np.zeros((DEPTH, n)),
+        gram=np.zeros((DEPTH, DEPTH + 2)),
+        modes=np.zeros(2, np.int64),
+    )
 
 
 def constant_entries(engine: Engine) -> set[int]:

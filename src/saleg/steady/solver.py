@@ -17,13 +17,14 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.engine.start import CompressedCharge, Start
 from saleg.kernel import layout
+from saleg.kernel.tuples import Snapshots
 from saleg.quantities import is_number
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import Replay, Settings, SettingsError, simulate
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.status import Status
-from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
+from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
 from saleg.steady.stability import Stability, stability
 
 DEFAULT_TOLERANCE = 1e-6
@@ -217,13 +218,14 @@ def _solved(engine: Engine, rtol: float, most: int) -> SteadyState:
             continue
         state = prepare(replace(engine, start=start))
         chart = ReturnMap.of(engine, state, rtol, mirrored)
-        code, found = chart.find(most, RESIDUAL * rtol)
-        spent += int(found[0] * chart.strokes_per_map) + (2 if code == layout.END_OF_TIME else 0)
+        found = chart.find(most, RESIDUAL * rtol)
+        cycled = found.code == layout.END_OF_TIME
+        spent += int(found.maps * chart.strokes_per_map) + (2 if cycled else 0)
         evaluations += chart.evaluations
-        if mirrored and code == layout.END_OF_TIME and found[2] > MIRROR_MISSED * rtol:
+        if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
             continue  # unstable, or not as symmetric as it looks
-        if converged(code, found, rtol):
-            return result_of(chart, spent, evaluations, float(found[2]), "fixed point", rtol)
+        if converged(found, rtol):
+            return result_of(chart, spent, evaluations, found.missed, "fixed point", rtol)
     return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
 
 
@@ -236,9 +238,9 @@ def starts(engine: Engine) -> Iterator[Start]:
     yield CompressedCharge(position=-0.75, burning=1.0)
 
 
-def converged(code: int, found: np.ndarray, tolerance: float) -> bool:
+def converged(found: Search, tolerance: float) -> bool:
     """Whether a fixed point was found and a whole cycle from it comes back to it."""
-    return code == layout.END_OF_TIME and found[2] <= MOST_MISSED * tolerance
+    return found.code == layout.END_OF_TIME and found.missed <= MOST_MISSED * tolerance
 
 
 def result_of(
@@ -246,7 +248,7 @@ def result_of(
 ) -> SteadyState:
     """What a converged map has found."""
     engine, strokes = chart.engine, chart.strokes[:2].copy()
-    snapshot = tuple(part.copy() for part in chart.snapshot)
+    snapshots = Snapshots(*(part.copy() for part in chart.snapshots))
     settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
     status, what = _kind(engine, strokes)
     symmetry = "half-cycle map, mirrored" if chart.mirrored else "full-cycle map"
@@ -263,16 +265,16 @@ def result_of(
         residual=residual,
         method=method,
         strokes=strokes,
-        replay=Replay(engine, snapshot, settings),
+        replay=Replay(engine, snapshots, settings),
     )
 
 
 def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers."""
     heat = float(strokes["heat_released"].sum())
-    if engine.fires and not heat > 0.0:
+    if engine.has_combustion and not heat > 0.0:
         return Status.STALLED, "does not fire, it only swings:"
-    if engine.fires and not float(strokes["electrical_energy"].sum()) > 1e-9 * heat:
+    if engine.has_combustion and not float(strokes["electrical_energy"].sum()) > 1e-9 * heat:
         return Status.IDLING, "fires but delivers no power:"
     return Status.STEADY, "it is"
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from saleg.simulation.initial_state import State
 from saleg.simulation.integration import Replay
 from saleg.steady.return_map import ReturnMap, adiabatic_chambers, is_symmetric
 
@@ -79,8 +78,7 @@ def describe(found: Stability) -> str:
 
 def map_multipliers(replay: Replay, mirrored: bool) -> np.ndarray:
     """Multipliers of the return map itself, the largest first [-]."""
-    E, C, y = (part[1] for part in replay.snapshot)
-    start = State(E.reshape(1).copy(), C.copy(), y.copy(), np.zeros(0))
+    start = replay.start
     chart = ReturnMap.of(replay.engine, start.copy(), FINE, mirrored)
     values = np.linalg.eigvals(chart.jacobian(start, chart.vector(start)))
     # What a sealed adiabatic chamber keeps for ever is no instability: a multiplier of one each.
