@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from saleg.compiler.compose import Kernel, kernel_for
+from saleg.compiler.compiled_engine import kernel_for
+from saleg.compiler.kernel import Kernel
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.simulation.integration import SettingsError, settings_of, simulate

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from saleg.batch.many import CHUNK, RUN_UNITS, Row, run_row, table_of
-from saleg.compiler.compose import kernel_for
-from saleg.compiler.controllers import control_of
+from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.plant import InPython, Plant, course_of, give
 from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.control.verdict import verdict_of
@@ -264,7 +263,8 @@ def simulate_many(
 
 
 def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
-    return kernel_for(pair[0], actuators=pair[1].actuators), control_of(pair[1])[0]
+    compiled = compiled_engine(*pair)
+    return compiled.kernel, compiled.control[0]
 
 
 def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any) -> Row:
