@@ -304,6 +304,17 @@ def test_alternator_delivers_no_more_than_it_takes(law):
     assert all(law.at_dead_centre(1.0, stroke) >= 0.0 for stroke in STROKES)
 
 
+def test_a_load_follows_from_flux_and_resistance():
+    """Eq. 44 to 47: the induced voltage k v on the load R, all losses in the efficiency."""
+    law = laws.LinearLoad.from_circuit(50.0, 40.0, efficiency=0.8, regulator_gain=3.0)
+    assert law.load_constant == pytest.approx(78.125)
+    assert law.regulator_gain == 3.0
+    for motion in MOTIONS:
+        power = (50.0 * motion.v) ** 2 / 40.0
+        assert law.electrical_power(1.0, motion) == pytest.approx(power)
+        assert law.force(1.0, motion) * motion.v == pytest.approx(power / 0.8)
+
+
 def test_hohenberg_against_a_hand_calculation():
     gas = GASES[1]._replace(p=50e5, T=1500.0, V=1e-4, mean_piston_speed=5.0)
     assert laws.Hohenberg(a=130.0).coefficient(gas, CHARGE) == pytest.approx(1223.56, abs=0.005)

@@ -101,7 +101,7 @@ def solve(
     --------
     >>> found = solve(Design())
     >>> round(found.moving_mass, 2), abs(found.mass_error) < 1e-6
-    (2.33, True)
+    (2.38, True)
     """
     check_tolerance(rtol)
     _check_design(design)

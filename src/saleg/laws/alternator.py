@@ -61,6 +61,43 @@ class LinearLoad(RegulatedAlternator):
     load_constant: float = quantity("N s/m", default=70.0, low=0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
+    @classmethod
+    def from_circuit(
+        cls,
+        flux_gradient: float,
+        load_resistance: float,
+        *,
+        efficiency: float = 0.95,
+        **regulator: float,
+    ) -> LinearLoad:
+        """Load of an equivalent circuit as Eq. 46 and 47 have it: ``c_A = k^2 / (eta R)``.
+
+        The electrical power is that of the induced voltage on the load, ``(k v)^2 / R``; all losses
+        are in the efficiency. :class:`CircuitAlternator` has a resistance of the coils instead.
+
+        Parameters
+        ----------
+        flux_gradient : float
+            Change of the linked flux with position, k [V s/m].
+        load_resistance : float
+            Resistance R of the load [ohm].
+        efficiency : float
+            Electrical over mechanical power eta [-].
+        **regulator
+            See :class:`RegulatedAlternator`.
+
+        Returns
+        -------
+        LinearLoad
+
+        Examples
+        --------
+        >>> round(LinearLoad.from_circuit(50.0, 37.3).load_constant, 1)
+        70.6
+        """
+        constant = flux_gradient**2 / (efficiency * load_resistance)
+        return cls(load_constant=constant, efficiency=efficiency, **regulator)
+
     def force(self, held: float, motion: Motion) -> float:
         """Force against positive velocity [N], Eq. 47."""
         return held * self.load_constant * motion.v

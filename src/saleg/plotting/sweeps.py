@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-    from saleg.sweep.sobol import Indices
+    from saleg.sweep.sobol_indices import Indices
 
 #: Figures of the panels, in order.
 PANELS = (

@@ -20,7 +20,6 @@ from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.tableaus import FIXED_STEP
-from saleg.machines import CATALOGUE
 from saleg.quantities import is_number
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import Settings, SettingsError, options_record, simulate
@@ -177,57 +176,6 @@ def work_precision(
     deviations = [(table[name] / value - 1.0).abs() for name, value in compared.items()]
     table["error"] = pd.concat(deviations, axis=1).max(axis=1, skipna=False)
     return _described(table, engine)
-
-
-def is_of_base_case(study: pd.DataFrame) -> bool:
-    """Whether a study is of the engine of Tables 2 to 4, unmodified."""
-    return study.attrs.get("engine") == CATALOGUE["thesis-base"]().to_toml()
-
-
-def beside_thesis(
-    table: pd.DataFrame, printed: Mapping[float, Mapping[str, float]], key: str
-) -> pd.DataFrame:
-    """Set a study of the base case beside the rows a table of the thesis prints.
-
-    Parameters
-    ----------
-    table : DataFrame
-        A study of the thesis' base case, unmodified.
-    printed : mapping
-        Rows of the thesis by the value of `key`, for instance ``thesis_tables.TABLE_2``.
-    key : str
-        Column that tells the rows apart: "step", "order" or "stop_time".
-
-    Returns
-    -------
-    DataFrame
-        The study with a column ``thesis_...`` for every figure printed; NaN where the thesis
-        prints none, as for its unstable run.
-
-    Raises
-    ------
-    StudyError
-        If the study is of another engine, or has no column `key`.
-    """
-    if not is_of_base_case(table):
-        raise StudyError(
-            "the thesis prints these rows for its base case only, and this study is of another "
-            "engine, or is a table whose .attrs were lost"
-        )
-    if key not in table:
-        raise StudyError(f"no column {key!r} in the study; there are {', '.join(map(str, table))}")
-    result = table.copy()
-    rows = [_row_at(printed, value) for value in table[key]]
-    for name in dict.fromkeys(name for row in printed.values() for name in row):
-        result[f"thesis_{name}"] = [row.get(name, math.nan) for row in rows]
-        result.attrs["units"][f"thesis_{name}"] = UNITS[name]
-    return result
-
-
-def _row_at(printed: Mapping[float, Mapping[str, float]], value: float) -> Mapping[str, float]:
-    """The row printed for a value, however the value was computed; empty if there is none."""
-    found = (row for key, row in printed.items() if math.isclose(key, value, rel_tol=1e-9))
-    return next(found, {})
 
 
 def stop_time_study(

@@ -12,7 +12,7 @@ True
 
 from saleg.sweep.points import SweepError, grid, latin_hypercube, listed, sobol
 from saleg.sweep.runs import load, run
-from saleg.sweep.sobol import Indices, NoIndices, indices, saltelli_points
+from saleg.sweep.sobol_indices import Indices, NoIndices, indices, saltelli_points
 from saleg.sweep.subjects import DesignSubject, EngineSubject, Subject
 
 __all__ = [
