@@ -14,6 +14,7 @@ from saleg.compiler.text import COMPILED_HEADER, RUN_AT, RUN_PLAINLY, own_text
 TOY = """
 import numba
 import numpy as np
+Integration = tuple
 {header}
 cached = numba.njit(error_model="numpy", nogil=True)
 
@@ -23,7 +24,8 @@ def double(a):
 
 {run_at}
 @cached
-def run_on(y, step):
+def run_on(run):
+    y, step = run
     y[0] += step
     return 7
 
@@ -82,7 +84,7 @@ def test_without_entry_points_numba_is_called():
 def integrated(kernel):
     """Two calls of the toy's integrator from the toy's search."""
     y = np.zeros(1)
-    address = kernel.address("run_on", (y, 0.5))
+    address = kernel.address("run_on", ((y, 0.5),))
     assert kernel.call("outer", address, (y, 0.5)) == 8
     assert kernel.call("outer", address, (y, 0.25)) == 8
     assert math.isclose(y[0], 0.75)

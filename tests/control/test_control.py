@@ -146,7 +146,7 @@ PARTS = [
 def test_every_part_commands_the_same_compiled(part):
     """The compiled function, called by its address, against the same source run as Python."""
     controller = dataclasses.replace(Controller(), **{part.slot: part()})
-    address, numbers, held, signals, commands = control_of(controller)
+    address, numbers, memory, signals, commands = control_of(controller)
     python = InPython(controller)
     rng = np.random.default_rng(1)
     was = 0.0
@@ -167,17 +167,17 @@ def test_every_part_commands_the_same_compiled(part):
             0.6,
             300.0,
         )
-        signals[:] = seen
+        signals[0] = seen
         call_at(
             address,
             numbers.ctypes.data,
-            held.ctypes.data,
+            memory.ctypes.data,
             signals.ctypes.data,
             commands.ctypes.data,
         )
         wanted = python.act(seen)
-        np.testing.assert_allclose(commands, wanted, rtol=1e-14)
-        np.testing.assert_allclose(held, python.held.ravel(), rtol=1e-14)
+        np.testing.assert_allclose(commands[0].tolist(), wanted, rtol=1e-14)
+        np.testing.assert_allclose(memory, python.memory.ravel(), rtol=1e-14)
         was = wanted.motoring
 
 
@@ -290,9 +290,9 @@ def test_a_controller_that_fails_ends_the_run_and_is_named(transient, what, word
 class Runaway(LoadControl):
     """Asks for nonsense after a while."""
 
-    def weight(self, held, signals):
-        held[0] += 1.0
-        return 1.0 if held[0] < 10.0 else math.nan
+    def weight(self, memory, signals):
+        memory[0] += 1.0
+        return 1.0 if memory[0] < 10.0 else math.nan
 
 
 def test_a_compiled_part_that_fails_ends_the_run_and_is_named(transient):
@@ -311,7 +311,7 @@ def test_a_compiled_part_that_fails_ends_the_run_and_is_named(transient):
 class Asserting(LoadControl):
     """Fails by an assertion after a while."""
 
-    def weight(self, held, signals):
+    def weight(self, memory, signals):
         assert signals.t < 0.1
         return 1.0
 
@@ -320,7 +320,7 @@ class Asserting(LoadControl):
 class Dividing(LoadControl):
     """Fails at once: there is no frequency before the first stroke."""
 
-    def weight(self, held, signals):
+    def weight(self, memory, signals):
         return 45.0 / signals.frequency
 
 

@@ -19,7 +19,7 @@ from saleg.simulation.integration import SettingsError, settings_of, simulate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance
 from saleg.status import Status
-from saleg.steady.solver import SteadyState, check_tolerance, steady_state
+from saleg.steady.solver import Effort, SteadyState, check_effort, check_tolerance, steady_state
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -59,6 +59,7 @@ def steady_states(
     *,
     rtol: float = 1e-6,
     multipliers: bool = False,
+    effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
     chunk: int = CHUNK,
@@ -73,6 +74,9 @@ def steady_states(
         Tolerance of the integrator.
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
+    effort : Effort
+        As for :func:`saleg.steady_state`: ``Effort.QUICK`` gives up an engine without an orbit from
+        the standard starts after a few milliseconds, with the status "not found".
     executor : concurrent.futures.Executor, optional
         Who does the work; threads of this process unless given.
     workers : int, optional
@@ -96,7 +100,8 @@ def steady_states(
     ['steady', 'steady']
     """
     check_tolerance(rtol)
-    one = partial(_steady_row, rtol=rtol, multipliers=multipliers)
+    check_effort(effort)
+    one = partial(_steady_row, rtol=rtol, multipliers=multipliers, effort=effort)
     units = UNITS if multipliers else STEADY_UNITS
     return table_of(one, engines, units, executor, workers, chunk, kernel_for)
 
@@ -132,9 +137,9 @@ def simulate_many(
     return table_of(one, engines, RUN_UNITS, executor, workers, chunk, kernel_for)
 
 
-def _steady_row(engine: Engine, rtol: float, multipliers: bool) -> Row:
+def _steady_row(engine: Engine, rtol: float, multipliers: bool, effort: Effort) -> Row:
     """Row of a steady state."""
-    return steady_row(steady_state(engine, rtol=rtol), multipliers)
+    return steady_row(steady_state(engine, rtol=rtol, effort=effort), multipliers)
 
 
 def steady_row(
@@ -147,7 +152,7 @@ def steady_row(
     row["evaluations"] = float(found.evaluations)
     row["residual"] = found.residual
     if multipliers:
-        known = found.stability if found.found else None
+        known = found.stability if found.found and found.has_multipliers else None
         values = known.multipliers if known is not None else np.zeros(0)
         row["stable"] = known is not None and known.stable
         row["kind"] = "" if known is None else known.kind

@@ -10,7 +10,7 @@ from numba.extending import intrinsic
 
 
 @intrinsic
-def call_at(typing_context, address, numbers, held, signals, commands):
+def call_at(typing_context, address, numbers, memory, signals, commands):
     """Call a function of four pointers, everything given as addresses."""
 
     def generate(context, builder, signature, arguments):

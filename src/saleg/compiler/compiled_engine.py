@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from saleg.compiler import plain, records
 from saleg.compiler.cache import usable_folder
-from saleg.compiler.controllers import Control, control_of, nobody
+from saleg.compiler.controllers import control_of, nobody
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
 from saleg.compiler.source import NoSource, fingerprint, is_ours
 from saleg.compiler.text import INTEGRATOR, compose
+from saleg.kernel.tuples import Control
 from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 

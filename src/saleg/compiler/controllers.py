@@ -6,7 +6,6 @@ like that of a kernel and kept beside it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,7 @@ from saleg.compiler.source import NoSource, fingerprint, is_ours
 from saleg.compiler.text import COMPILED_HEADER, methods_text, own_text
 from saleg.errors import LawError
 from saleg.kernel import layout
+from saleg.kernel.tuples import Control
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS
 
@@ -27,10 +27,6 @@ if TYPE_CHECKING:
     from saleg.compiler.records import Lengths
     from saleg.engine.controller import Controller
     from saleg.laws import Law
-
-#: What the kernel is handed: address of a function (the function itself where nothing is compiled),
-#: numbers, and room for what it holds, is shown and commands.
-Control = tuple[int | Callable[..., None], np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 ENTRY = """\
 _pointer = numba.types.CPointer(numba.types.float64)
@@ -53,9 +49,8 @@ def control_of(controller: Controller) -> Control:
         If a part cannot be compiled, naming it.
     """
     if plain.is_wanted():
-        _, numbers, held, signals, commands = nobody()
-        entry = plain.plain_function(controller, held, signals, commands)
-        return entry, numbers, held, signals, commands
+        room = nobody()
+        return room._replace(address=plain.plain_function(controller, room))
     laws = list(controller.laws.values())
     classes: tuple[Any, ...] = tuple(map(type, laws))
     state = tuple(fingerprint(law) for law in dict.fromkeys(classes) if not is_ours(law))
@@ -69,8 +64,14 @@ def nobody() -> Control:
 
 
 def _with_room(address: int, numbers: np.ndarray) -> Control:
-    held = np.zeros(layout.CONTROL_PARTS * layout.HELD)
-    return address, numbers, held, np.zeros(len(Signals._fields)), np.zeros(len(Commands._fields))
+    commands = np.full(2 * len(Commands._fields), np.nan).view(layout.COMMANDS_RECORD)
+    return Control(
+        address=address,
+        numbers=numbers,
+        memory=np.zeros(layout.CONTROL_PARTS * layout.MEMORY),
+        signals=np.zeros(1, layout.SIGNALS_RECORD),
+        commands=commands,
+    )
 
 
 @lru_cache(maxsize=128)
@@ -131,7 +132,7 @@ def _body(places: list[str], count: int) -> str:
     signals = ", ".join(f"s[{n}]" for n in range(len(Signals._fields)))
     lines = [
         f"p = numba.carray(numbers_at, ({count},))",
-        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.HELD}))",
+        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.MEMORY}))",
         f"s = numba.carray(signals_at, ({len(Signals._fields)},))",
         f"c = numba.carray(commands_at, ({len(Commands._fields)},))",
         f"wanted = decide(all_numbers({', '.join(places)}), h, Signals({signals}))",

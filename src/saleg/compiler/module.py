@@ -76,19 +76,25 @@ def _execute(text: str, stem: str, filename: str, names: dict[str, Any] | None) 
     return module
 
 
-def without_source(function: Callable[..., Any], seen: dict[int, Any] | None = None) -> Any:
-    """Compile a function whose text cannot be had from its bytecode, with the functions it uses."""
+def without_source(
+    function: Callable[..., Any], attributes: dict[str, str], seen: dict[int, Any] | None = None
+) -> Any:
+    """Compile a function from its bytecode, with those it uses, some attributes renamed."""
     import numba
 
     seen = {} if seen is None else seen
     if id(function) in seen:
         return seen[id(function)]
     names = {
-        name: without_source(value, seen) if isinstance(value, types.FunctionType) else value
+        name: without_source(value, attributes, seen)
+        if isinstance(value, types.FunctionType)
+        else value
         for name, value in inspect.getclosurevars(function).globals.items()
     }
+    code = function.__code__
+    code = code.replace(co_names=tuple(attributes.get(name, name) for name in code.co_names))
     copy = types.FunctionType(
-        function.__code__, names, function.__name__, function.__defaults__, function.__closure__
+        code, names, function.__name__, function.__defaults__, function.__closure__
     )
     seen[id(function)] = numba.njit(forceinline=True, error_model="numpy", nogil=True)(copy)
     return seen[id(function)]

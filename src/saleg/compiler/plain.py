@@ -19,6 +19,7 @@ from saleg.compiler.kernel import Kernel
 from saleg.compiler.records import OTHER_SLOTS
 from saleg.kernel import layout
 from saleg.kernel.decide import decide
+from saleg.kernel.tuples import Control
 from saleg.laws import Law
 from saleg.laws.arguments import Signals
 from saleg.laws.base import CHAMBER_SLOTS
@@ -75,14 +76,12 @@ def plain_laws(laws: Sequence[Law]) -> list[SimpleNamespace]:
     return [SimpleNamespace(left=SimpleNamespace(**left), right=SimpleNamespace(**right), **rest)]
 
 
-def plain_function(
-    controller: Any, held: np.ndarray, signals: np.ndarray, commands: np.ndarray
-) -> Callable[..., None]:
+def plain_function(controller: Any, room: Control) -> Callable[..., None]:
     """What stands in the place of the address of a controller's function."""
 
     def entry(*_addresses: int) -> None:
-        rooms = held.reshape(layout.CONTROL_PARTS, layout.HELD)
-        commands[:] = decide(controller, rooms, Signals(*signals.tolist()))
+        memory = room.memory.reshape(layout.CONTROL_PARTS, layout.MEMORY)
+        room.commands[0] = decide(controller, memory, Signals(*room.signals[0].tolist()))
 
     return entry
 

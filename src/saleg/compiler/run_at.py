@@ -11,14 +11,14 @@ from numba.extending import intrinsic
 
 @intrinsic
 def run_at(typing_context, address, run):
-    """Call the integrator with a tuple of its arguments; returns its code."""
-    given = list(run)
+    """Call the integrator with its arguments; returns its code."""
 
     def generate(context, builder, signature, arguments):
-        kind = context.call_conv.get_function_type(types.int64, given)
+        kind = context.call_conv.get_function_type(types.int64, [run])
         function = builder.inttoptr(arguments[0], ir.PointerType(kind))
-        values = [builder.extract_value(arguments[1], n) for n in range(len(given))]
-        _, code = context.call_conv.call_function(builder, function, types.int64, given, values)
+        _, code = context.call_conv.call_function(
+            builder, function, types.int64, [run], [arguments[1]]
+        )
         return code
 
     return types.int64(types.int64, run), generate

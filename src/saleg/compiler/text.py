@@ -15,7 +15,7 @@ from typing import Any
 from saleg.compiler import machine_code
 from saleg.compiler.module import without_source
 from saleg.compiler.records import OTHER_SLOTS
-from saleg.compiler.source import Borrowed, NoSource
+from saleg.compiler.source import Borrowed, NoSource, earlier_attributes
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.errors import LawError
 from saleg.laws import Law
@@ -23,7 +23,14 @@ from saleg.laws.base import CHAMBER_SLOTS
 
 PACKAGE = Path(__file__).resolve().parent.parent
 #: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
-BEFORE_SLOTS = ("laws/arguments.py", "kernel/aid.py", "kernel/layout.py", "compiler/call_at.py")
+BEFORE_SLOTS = (
+    "laws/arguments.py",
+    "kernel/copies.py",
+    "kernel/tuples.py",
+    "kernel/logarithms.py",
+    "kernel/layout.py",
+    "compiler/call_at.py",
+)
 #: How the search for steady states calls the integrator, and how if numba has no addresses.
 RUN_AT, RUN_PLAINLY = "compiler/run_at.py", "kernel/run_plainly.py"
 #: Modules of the kernel that make up the integrator.
@@ -187,7 +194,9 @@ def methods_text(
     except NoSource:
         if injected is None:
             raise
-        injected[f"{prefix}_{method}{'__plain' if eases else ''}"] = without_source(function)
+        injected[f"{prefix}_{method}{'__plain' if eases else ''}"] = without_source(
+            function, earlier_attributes(law)
+        )
         return [NOT_EASED.format(name=f"{prefix}_{method}")] if eases else []
     return borrowed.definitions
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from saleg.batch.many import CHUNK, RUN_UNITS, Row, run_row, table_of
 from saleg.compiler.compiled_engine import compiled_engine
-from saleg.control.plant import InPython, Plant, course_of, give, measured
-from saleg.control.sensors import Measurement, Sensors
+from saleg.control.plant import InPython, Plant, course_of, give
+from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.control.verdict import verdict_of
 from saleg.engine import Engine
 from saleg.engine.controller import Controller
@@ -139,7 +139,7 @@ def _compiled(engine: Engine, controller: Controller, duration: float, settings:
         give(course, parts.act(measured(course.state)), first=True)
     except ControllerError as error:
         return course.run(*verdict_of(course, 0, str(error)))
-    course.state.engine["held"][0] = parts.held.ravel()
+    course.state.engine["memory"][0] = parts.memory.ravel()
     code = course.go_on()
     return course.run(*verdict_of(course, code), course.replay())
 

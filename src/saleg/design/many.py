@@ -14,6 +14,7 @@ from saleg.design.loop import solve
 from saleg.design.results import UNITS as COMPONENT_UNITS
 from saleg.design.results import DesignedState
 from saleg.design.score import Score
+from saleg.steady.solver import Effort
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,16 +36,26 @@ class Follower:
         Differentiate each steady state.
     warm : bool
         Start each design from the one before it.
+    effort : Effort
+        How much work a design may be.
     """
 
-    def __init__(self, design: Design, rtol: float, multipliers: bool, warm: bool):
+    def __init__(
+        self,
+        design: Design,
+        rtol: float,
+        multipliers: bool,
+        warm: bool,
+        effort: Effort = Effort.THOROUGH,
+    ):
         self._design, self._rtol, self._multipliers, self._warm = design, rtol, multipliers, warm
+        self._effort = effort
         self._near: DesignedState | None = None
 
     def __call__(self, values: Mapping[str, float]) -> Row:
         """Row of a design."""
         design = self._design.replace(values)
-        found = solve(design, rtol=self._rtol, near=self._near)
+        found = solve(design, rtol=self._rtol, near=self._near, effort=self._effort)
         if self._warm and found.found:
             self._near = found
         return design_row(found, self._multipliers)
@@ -66,6 +77,7 @@ def evaluate_many(
     *,
     rtol: float = 1e-6,
     multipliers: bool = False,
+    effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
     chunk: int = 32,
@@ -83,6 +95,9 @@ def evaluate_many(
         Tolerance.
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
+    effort : Effort
+        As for :func:`saleg.steady_state`: ``Effort.QUICK`` gives up a design without an orbit from
+        the standard starts after a few milliseconds, with the status "not found".
     executor, workers, chunk
         As for :func:`saleg.sweep.run`.
 
@@ -107,6 +122,7 @@ def evaluate_many(
         design,
         rtol=rtol,
         multipliers=multipliers,
+        effort=effort,
         executor=executor,
         workers=workers,
         chunk=chunk,

@@ -87,9 +87,14 @@ class Engine:
         return self.left, self.right
 
     @property
-    def fires(self) -> bool:
+    def has_combustion(self) -> bool:
         """Whether at least one chamber burns fuel."""
         return any(isinstance(chamber, CombustionChamber) for chamber in self.chambers)
+
+    @property
+    def fires(self) -> bool:
+        """Earlier name of :attr:`has_combustion`."""
+        return self.has_combustion
 
     @property
     def laws(self) -> dict[str, Law]:

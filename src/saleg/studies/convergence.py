@@ -296,7 +296,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
     options = options_record(Settings(duration, adaptive=False, step=step), duration)
     forces = np.full(int(delay) + 1, _gas_force(state))
     work = tuple(np.zeros(layout.N_ALL) for _ in range(3))
-    code = layout.BUFFER_FULL
+    tables, code = records.tables, layout.BUFFER_FULL
     while code == layout.BUFFER_FULL:
         code = kernel.call(
             "run_delayed",
@@ -308,9 +308,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
             int(delay),
             forces,
             options,
-            records.strokes,
-            records.events,
-            records.filled,
+            tables,
             work,
             control,
         )

@@ -16,7 +16,7 @@ from saleg.batch.workers import check_workers, completed
 from saleg.design.designs import Design
 from saleg.engine import Engine
 from saleg.quantities import is_number
-from saleg.steady.solver import DEFAULT_TOLERANCE, check_tolerance
+from saleg.steady.solver import DEFAULT_TOLERANCE, Effort, check_effort, check_tolerance
 from saleg.sweep.points import SweepError
 from saleg.sweep.store import Folder
 from saleg.sweep.subjects import Subject, Values, subject_of
@@ -40,6 +40,7 @@ def run(
     rtol: float = DEFAULT_TOLERANCE,
     multipliers: bool = True,
     warm: bool = False,
+    effort: Effort = Effort.THOROUGH,
     report: Callable[[int, int], None] | None = None,
 ) -> pd.DataFrame:
     """Evaluate every point of a sweep.
@@ -69,6 +70,9 @@ def run(
     warm : bool
         For designs: start each point from the one before it in its chunk, which follows a branch
         where there are several steady states. It is no faster.
+    effort : Effort
+        As for :func:`saleg.steady_state`: ``Effort.QUICK`` gives up a point without an orbit from
+        the standard starts after a few milliseconds, with the status "not found".
     report : callable, optional
         Called with the numbers of points done and of all points, after what is done is on disk.
 
@@ -96,7 +100,8 @@ def run(
     subject = subject_of(swept)
     _check(points, subject, chunk, rtol)
     check_workers(executor, workers)
-    solver = partial(subject.solver, rtol, multipliers, warm)
+    check_effort(effort)
+    solver = partial(subject.solver, rtol, multipliers, warm, effort)
     solver()  # what it refuses, it refuses here
     points = _described(points.reset_index(drop=True), subject, [str(name) for name in points])
     pieces = [(n, points.iloc[n * chunk : (n + 1) * chunk]) for n in range(_count(points, chunk))]
@@ -104,6 +109,8 @@ def run(
     if folder is None:
         return _table(points, dict(_work(job, pieces, executor, workers, report)), subject)
     settings = {"rtol": rtol, "multipliers": multipliers, "warm": warm, "chunk": chunk}
+    if effort is not Effort.THOROUGH:  # folders from before there was a choice stay what they are
+        settings["effort"] = effort.value
     description = {
         "version": __version__,
         "swept": subject.describe(),

@@ -16,7 +16,7 @@ from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import UnknownPath
 from saleg.quantities import is_number
-from saleg.steady.solver import steady_state
+from saleg.steady.solver import Effort, steady_state
 from saleg.sweep.identity import described, own_code
 from saleg.sweep.points import SweepError
 
@@ -36,7 +36,9 @@ class Subject(Protocol):
     def describe(self) -> dict[str, Any]:
         """All that decides about the results, as plain data."""
 
-    def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
+    def solver(
+        self, rtol: float, multipliers: bool, warm: bool, effort: Effort
+    ) -> Callable[[Values], Row]:
         """What makes a row of a point; may remember the point before."""
 
 
@@ -70,9 +72,11 @@ class DesignSubject:
             **_laws(self.design.laws),
         }
 
-    def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
+    def solver(
+        self, rtol: float, multipliers: bool, warm: bool, effort: Effort
+    ) -> Callable[[Values], Row]:
         """What makes a row of a point."""
-        return Follower(self.design, rtol, multipliers, warm)
+        return Follower(self.design, rtol, multipliers, warm, effort)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -97,13 +101,15 @@ class EngineSubject:
         """The engine."""
         return {"kind": "engine", **_laws(self.engine)}
 
-    def solver(self, rtol: float, multipliers: bool, warm: bool) -> Callable[[Values], Row]:
+    def solver(
+        self, rtol: float, multipliers: bool, warm: bool, effort: Effort
+    ) -> Callable[[Values], Row]:
         """What makes a row of a point, from the engine's own starts."""
         if warm:
             raise SweepError("warm starts are for designs; an engine begins with its own starts")
 
         def row(values: Values) -> Row:
-            found = steady_state(self.engine.replace(**values), rtol=rtol)
+            found = steady_state(self.engine.replace(**values), rtol=rtol, effort=effort)
             return steady_row(found, multipliers)
 
         return row
