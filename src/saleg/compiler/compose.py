@@ -24,10 +24,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from saleg.compiler.cache import locked, usable_folder, write_atomically
+from saleg.compiler.cache import usable_folder
 from saleg.compiler.source import Borrowed, NoSource, check_law, fingerprint
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.errors import LawError
+from saleg.files.atomic import write_text
+from saleg.files.lock import locked
 from saleg.kernel import jit
 from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
@@ -334,7 +336,7 @@ def _load(
         return Kernel(execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None, own)
     path = folder / f"saleg_kernel_{digest(text)}.py"
     if not path.is_file() or path.read_bytes() != text.encode():
-        write_atomically(path, text)
+        write_text(path, text, mode=0o600)
     return Kernel(execute(text, str(path)), path.with_suffix(".lock"), own)
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.cache import locked, usable_folder, write_atomically
+from saleg.compiler.cache import usable_folder
 from saleg.compiler.compose import (
     digest,
     execute,
@@ -25,6 +25,8 @@ from saleg.compiler.compose import (
 )
 from saleg.compiler.source import NoSource, fingerprint
 from saleg.errors import LawError
+from saleg.files.atomic import write_text
+from saleg.files.lock import locked
 from saleg.kernel import jit, layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS
@@ -106,7 +108,7 @@ def _import(text: str) -> Any:
     path = folder / f"saleg_controller_{digest(text)}.py"
     with locked(path.with_suffix(".lock")):
         if not path.is_file() or path.read_bytes() != text.encode():
-            write_atomically(path, text)
+            write_text(path, text, mode=0o600)
         return _entry(text, str(path))
 
 

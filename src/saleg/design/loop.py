@@ -104,7 +104,7 @@ def solve(
     (2.33, True)
     """
     check_tolerance(rtol)
-    _check_design(design)
+    check_design(design)
     design.validate()
     engine = design.engine(1.0)
     guess = _mass(design, Operation.guess(engine))
@@ -157,11 +157,12 @@ def evaluate(
     (True, 0.083)
     """
     design = Design() if design is None else design
-    _check_design(design)
+    check_design(design)
     return solve(design.replace(values), rtol=rtol)
 
 
-def _check_design(design: Any) -> None:
+def check_design(design: Any) -> None:
+    """Refuse what is no design; raises InvalidDesign."""
     if not isinstance(design, Design):
         need = "must be a saleg.design.Design, as Design().replace(bore=0.06); names go as keywords"
         raise InvalidDesign([Problem("design", design, "-", need)])
