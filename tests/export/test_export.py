@@ -17,7 +17,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import saleg
-from helpers import ROOT
 from saleg import export, performance
 from saleg.cli import main
 from saleg.export import csv_folder, description, matlab, units
@@ -571,12 +570,6 @@ def test_importing_export_is_light():
     )
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert shown.stdout == "[]\n"
-
-
-def test_the_example_runs(tmp_path):
-    example = ROOT / "examples" / "03_export.py"
-    subprocess.run([sys.executable, "-W", "error", str(example)], check=True, cwd=tmp_path)
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_the_command_line_writes_the_formats_wanted(tmp_path, capsys):

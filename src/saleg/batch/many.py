@@ -10,13 +10,13 @@ import numpy as np
 
 from saleg.batch.table import CHUNK, Row, in_pieces, rows_of, table_of
 from saleg.batch.workers import check_workers
-from saleg.compiler.compose import kernel_for
+from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine
 from saleg.simulation.integration import settings_of, simulate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance
 from saleg.status import Status
-from saleg.steady.solver import SteadyState, check_tolerance, steady_state
+from saleg.steady.solver import Effort, SteadyState, check_effort, check_tolerance, steady_state
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -52,6 +52,7 @@ def steady_states(
     *,
     rtol: float = 1e-6,
     multipliers: bool = False,
+    effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
     chunk: int = CHUNK,
@@ -66,6 +67,9 @@ def steady_states(
         Tolerance of the integrator.
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
+    effort : Effort
+        As for :func:`saleg.steady_state`: ``Effort.QUICK`` gives up an engine without an orbit from
+        the standard starts after a few milliseconds, with the status "not found".
     executor : concurrent.futures.Executor, optional
         Who does the work; threads of this process unless given.
     workers : int, optional
@@ -89,7 +93,8 @@ def steady_states(
     ['steady', 'steady']
     """
     check_tolerance(rtol)
-    row_of = partial(_steady_row, rtol=rtol, multipliers=multipliers)
+    check_effort(effort)
+    row_of = partial(_steady_row, rtol=rtol, multipliers=multipliers, effort=effort)
     units = STABILITY_UNITS if multipliers else STEADY_UNITS
     return batch_table(row_of, engines, units, kernel_for, executor, workers, chunk)
 
@@ -148,9 +153,9 @@ def batch_table(
     return table_of(dict(parts), units)
 
 
-def _steady_row(engine: Engine, rtol: float, multipliers: bool) -> Row:
+def _steady_row(engine: Engine, rtol: float, multipliers: bool, effort: Effort) -> Row:
     """Row of a steady state."""
-    return steady_row(steady_state(engine, rtol=rtol), multipliers)
+    return steady_row(steady_state(engine, rtol=rtol, effort=effort), multipliers)
 
 
 def steady_row(
@@ -163,7 +168,7 @@ def steady_row(
     row["evaluations"] = float(found.evaluations)
     row["residual"] = found.residual
     if multipliers:
-        known = found.stability if found.found else None
+        known = found.stability if found.found and found.has_multipliers else None
         values = known.multipliers if known is not None else np.zeros(0)
         row["stable"] = known is not None and known.stable
         row["kind"] = "" if known is None else known.kind

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from saleg.engine import Engine
-    from saleg.thesis.experiment import Experiment, Line, Result
+    from saleg.simulation.run import Run
+    from saleg.thesis.experiment import Experiment, Line
 
 #: The engine of Chapter 5.
 DEFAULT = "thesis-transient"
@@ -26,6 +27,7 @@ DEFAULT = "thesis-transient"
 FLAGS = {
     "duration": "--duration",
     "base_frequency": "--base-frequency",
+    "phase": "--phase",
     "strokes": "--strokes",
     "motor": "--no-motor",
     "demand": "--demand",
@@ -51,6 +53,11 @@ def add_to(commands: Any) -> None:
     add("--duration", type=float, metavar="T", help="time to simulate [s]")
     add(
         "--base-frequency", type=float, metavar="F", help="the motor begins with it [Hz] (start-up)"
+    )
+    add(
+        "--phase",
+        choices=("literal", "integrated"),
+        help="the motor's force is sin(2 pi f t), or its frequency is integrated (start-up)",
     )
     add("--strokes", type=int, metavar="N", help="strokes without fuel (misfire)")
     add(
@@ -88,12 +95,15 @@ def perform(options: argparse.Namespace) -> bool:
             names = _write(folder, engine, experiment, result)
         print(_report(options, experiment, engine, result))
         print(f"\nwrote {options.out}: {', '.join(names)}")
-    if options.animate is not None and result.run is not None:
+    from saleg.thesis.experiment import run_of
+
+    run = run_of(result)
+    if options.animate is not None and run is not None:
         from saleg.plotting import animate
 
-        animate(result.run, options.animate, overwrite=options.force)
+        animate(run, options.animate, overwrite=options.force)
         print(f"wrote {options.animate}")
-    return result.run is None or result.run.status.ended_well
+    return run is None or run.status.ended_well
 
 
 def _listed() -> str:
@@ -138,15 +148,22 @@ def _keywords(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _report(
-    options: argparse.Namespace, experiment: Experiment, engine: Engine, result: Result
+    options: argparse.Namespace, experiment: Experiment, engine: Engine, result: Any
 ) -> str:
     """What was done, how it ended, and what was seen beside what the dissertation says."""
-    beside = engine == CATALOGUE[DEFAULT]()
+    from saleg.thesis.experiment import run_of
+
+    run, beside = run_of(result), engine == CATALOGUE[DEFAULT]()
     head = [f"{options.experiment}: {experiment.summary}"]
-    if result.run is not None:
-        head.append(f"{result.run.engine.name}: {result.run.status} - {result.run.message}")
-    lines = experiment.report(result) if result.moved else []
+    if run is not None:
+        head.append(f"{run.engine.name}: {run.status} - {run.message}")
+    lines = experiment.report(result) if _moved(run) else []
     return "\n\n".join(["\n".join(head), "\n".join(_aligned(lines, beside))]).rstrip()
+
+
+def _moved(run: Run | None) -> bool:
+    """Whether there is anything to draw and report; not after a run without a full cycle."""
+    return run is None or len(run.cycles) > 0
 
 
 def _aligned(lines: list[Line], beside: bool) -> list[str]:
@@ -166,16 +183,19 @@ def _known() -> tuple[str, ...]:
     return (ENGINE, *TABLES, *sorted(pictures))
 
 
-def _write(folder: Path, engine: Engine, experiment: Experiment, result: Result) -> list[str]:
+def _write(folder: Path, engine: Engine, experiment: Experiment, result: Any) -> list[str]:
     """Write engine, tables and, of what moved, pictures; returns the names of the files."""
-    write_text(folder / ENGINE, (engine if result.run is None else result.run.engine).to_toml())
-    if result.run is not None:
-        write_frame(folder / "dead_centres.csv", result.run.dead_centres)
-        write_frame(folder / "cycles.csv", result.run.cycles)
-    if result.table is not None:
-        write_frame(folder / "results.csv", result.table)
-    for name, picture in experiment.draw.items() if result.moved else ():
-        np.ravel(picture(result))[0].figure.savefig(folder / name)
+    from saleg.thesis.experiment import run_of, table_of
+
+    run, table = run_of(result), table_of(result)
+    write_text(folder / ENGINE, (engine if run is None else run.engine).to_toml())
+    if run is not None:
+        write_frame(folder / "dead_centres.csv", run.dead_centres)
+        write_frame(folder / "cycles.csv", run.cycles)
+    if table is not None:
+        write_frame(folder / "results.csv", table)
+    for name, draw in experiment.draw.items() if _moved(run) else ():
+        np.ravel(draw(result))[0].figure.savefig(folder / name)
     return [name for name in _known() if (folder / name).exists()]
 
 

@@ -144,7 +144,7 @@ def _settings(options: argparse.Namespace) -> dict[str, Any]:
 def report(result: Run) -> str:
     """Text on a run: status, message and figures, beside the thesis' where there are any."""
     from saleg.simulation.report import describe_run
-    from saleg.thesis.tables import comparison
+    from saleg.thesis.beside import comparison
 
     table = comparison(result) if result.status.ended_well else None
     return describe_run(result) + (f"\n\n{table}" if table else "")

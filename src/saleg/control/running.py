@@ -11,10 +11,9 @@ import numpy as np
 
 from saleg.batch.many import RUN_UNITS, batch_table, run_row
 from saleg.batch.table import CHUNK, Row
-from saleg.compiler.compose import kernel_for
-from saleg.compiler.controllers import control_of
-from saleg.control.plant import InPython, Plant, course_of, give, measured
-from saleg.control.sensors import Measurement, Sensors
+from saleg.compiler.compiled_engine import compiled_engine
+from saleg.control.plant import InPython, Plant, course_of, give
+from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.control.verdict import verdict_of
 from saleg.engine import Engine
 from saleg.engine.controller import Controller
@@ -141,7 +140,7 @@ def _compiled(engine: Engine, controller: Controller, duration: float, settings:
         give(course, parts.act(measured(course.state)), first=True)
     except ControllerError as error:
         return course.run(*verdict_of(course, 0, str(error)))
-    course.state.engine["held"][0] = parts.held.ravel()
+    course.state.engine["memory"][0] = parts.memory.ravel()
     code = course.go_on()
     return course.run(*verdict_of(course, code), course.replay())
 
@@ -265,7 +264,8 @@ def simulate_many(
 
 
 def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
-    return kernel_for(pair[0], actuators=pair[1].actuators), control_of(pair[1])[0]
+    compiled = compiled_engine(*pair)
+    return compiled.kernel, compiled.control[0]
 
 
 def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any) -> Row:

@@ -16,7 +16,7 @@ from saleg.design.designs import Design
 from saleg.design.loop import check_design, solve
 from saleg.design.results import COMPONENT_UNITS, DesignedState
 from saleg.design.score import Score
-from saleg.steady.solver import check_tolerance
+from saleg.steady.solver import Effort, check_effort, check_tolerance
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -38,16 +38,26 @@ class DesignSolver:
         Differentiate each steady state.
     warm : bool
         Start each design from the one before it.
+    effort : Effort
+        How much work a design may be.
     """
 
-    def __init__(self, design: Design, rtol: float, multipliers: bool, warm: bool):
+    def __init__(
+        self,
+        design: Design,
+        rtol: float,
+        multipliers: bool,
+        warm: bool,
+        effort: Effort,
+    ):
         self._design, self._rtol, self._multipliers, self._warm = design, rtol, multipliers, warm
+        self._effort = effort
         self._near: DesignedState | None = None
 
     def __call__(self, values: Values) -> Row:
         """Row of a design."""
         design = self._design.replace(values)
-        found = solve(design, rtol=self._rtol, near=self._near)
+        found = solve(design, rtol=self._rtol, near=self._near, effort=self._effort)
         if self._warm and found.found:
             self._near = found
         return design_row(found, self._multipliers)
@@ -71,9 +81,9 @@ class EvaluatedDesign:
         self.design.replace({name: float("nan")})  # an object of its own, to be found again
         return unit
 
-    def solver(self, rtol: float, multipliers: bool, warm: bool) -> DesignSolver:
+    def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> DesignSolver:
         """What makes a row of a point; may remember the point before."""
-        return DesignSolver(self.design, rtol, multipliers, warm)
+        return DesignSolver(self.design, rtol, multipliers, warm, effort)
 
 
 def design_row(found: DesignedState, multipliers: bool) -> Row:
@@ -92,6 +102,7 @@ def evaluate_many(
     *,
     rtol: float = 1e-6,
     multipliers: bool = False,
+    effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
     chunk: int = CHUNK,
@@ -109,6 +120,9 @@ def evaluate_many(
         Tolerance.
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
+    effort : Effort
+        As for :func:`saleg.steady_state`: ``Effort.QUICK`` gives up a design without an orbit from
+        the standard starts after a few milliseconds, with the status "not found".
     executor, workers, chunk
         As for :func:`saleg.steady_states`.
 
@@ -136,8 +150,9 @@ def evaluate_many(
     ['steady', 'invalid']
     """
     check_tolerance(rtol)
+    check_effort(effort)
     design = Design() if design is None else design
     check_design(design)
     evaluated = EvaluatedDesign(design)
-    solver = partial(evaluated.solver, rtol, multipliers, warm=False)
+    solver = partial(evaluated.solver, rtol, multipliers, warm=False, effort=effort)
     return evaluated_points(frame, evaluated, solver, chunk, executor, workers)

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from saleg.compiler.compose import needs_motored_pressure
 from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
@@ -86,7 +85,7 @@ def simulate(
     True
     """
     engine.validate()
-    running = RunningEngine.started(engine, motored_pressure or needs_motored_pressure(engine))
+    running = RunningEngine.started(engine, motored_pressure or engine.needs_motored_pressure)
     speed = natural_speed(running)
     method = Solver(
         method=solver,
@@ -155,5 +154,7 @@ def _final_state(running: RunningEngine) -> State:
     E = np.zeros(1, layout.ENGINE_RECORD)
     E["t"], E["stroke"] = running.t, running.machine.stroke
     E["maximum_stroke"] = running.engine.maximum_stroke
-    E["direction"] = running.machine.direction
+    E["direction"], E["t_dead_centre"] = running.machine.direction, running.t_dead_centre
+    E["length_scale"] = 0.5 * running.engine.maximum_stroke
+    E["speed_scale"] = natural_speed(running)
     return State(E, np.zeros(2, layout.CHAMBER_RECORD), running.y, running.peaks)

@@ -13,7 +13,7 @@ from saleg.batch.table import CHUNK, Columns
 from saleg.design.designs import Design
 from saleg.engine import Engine
 from saleg.errors import SweepError
-from saleg.steady.solver import DEFAULT_TOLERANCE, check_tolerance
+from saleg.steady.solver import DEFAULT_TOLERANCE, Effort, check_effort, check_tolerance
 from saleg.sweep.store import Folder
 from saleg.sweep.subjects import Subject, subject_of
 from saleg.version import __version__
@@ -37,6 +37,7 @@ def run(
     rtol: float = DEFAULT_TOLERANCE,
     multipliers: bool = True,
     warm: bool = False,
+    effort: Effort = Effort.THOROUGH,
     report: Report | None = None,
 ) -> pd.DataFrame:
     """Evaluate every point of a sweep.
@@ -66,6 +67,9 @@ def run(
     warm : bool
         For designs: start each point from the one before it in its chunk, which follows a branch
         where there are several steady states. It is no faster.
+    effort : Effort
+        As for :func:`saleg.steady_state`: ``Effort.QUICK`` gives up a point without an orbit from
+        the standard starts after a few milliseconds, with the status "not found".
     report : callable, optional
         Called with the numbers of points done and of all points, after what is done is on disk.
 
@@ -94,14 +98,18 @@ def run(
     """
     subject = subject_of(swept)
     check_tolerance(rtol)
-    solver = partial(subject.solver, rtol, multipliers, warm)
+    check_effort(effort)
+    solver = partial(subject.solver, rtol, multipliers, warm, effort)
     evaluation = Evaluation(points, subject, solver, chunk, executor, workers)
     if folder is None:
         return evaluation.table(dict(_work(evaluation, report)))
+    settings = {"rtol": rtol, "multipliers": multipliers, "warm": warm, "chunk": chunk}
+    if effort is not Effort.THOROUGH:  # folders from before there was a choice stay what they are
+        settings["effort"] = effort.value
     identity = {
         "format": FORMAT,
         "swept": subject.describe(),
-        "settings": {"rtol": rtol, "multipliers": multipliers, "warm": warm, "chunk": chunk},
+        "settings": settings,
         "inputs": evaluation.input_units,
         "count": len(points),
     }

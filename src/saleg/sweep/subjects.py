@@ -15,7 +15,7 @@ from saleg.design.many import EvaluatedDesign
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import SweepError, UnknownPath
-from saleg.steady.solver import steady_state
+from saleg.steady.solver import Effort, steady_state
 from saleg.sweep.identity import described, own_code
 
 
@@ -25,7 +25,7 @@ class Subject(Evaluated, Protocol):
     def describe(self) -> dict[str, Any]:
         """All that decides about the results, as plain data."""
 
-    def solver(self, rtol: float, multipliers: bool, warm: bool) -> Solver:
+    def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> Solver:
         """What makes a row of a point; may remember the point before."""
 
 
@@ -67,13 +67,13 @@ class EngineSubject:
         """The engine."""
         return {"kind": "engine", **_laws(self.engine)}
 
-    def solver(self, rtol: float, multipliers: bool, warm: bool) -> Solver:
+    def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> Solver:
         """What makes a row of a point, from the engine's own starts."""
         if warm:
             raise SweepError("warm starts are for designs; an engine begins with its own starts")
 
         def row(values: Values) -> Row:
-            found = steady_state(self.engine.replace(**values), rtol=rtol)
+            found = steady_state(self.engine.replace(**values), rtol=rtol, effort=effort)
             return steady_row(found, multipliers)
 
         return row
