@@ -100,6 +100,17 @@ def test_a_folder_says_what_it_holds_and_takes_no_other_sweep(tmp_path):
         sweep.run(points, folder=strange)
 
 
+def test_a_sweep_goes_on_under_another_version(stopped, monkeypatch):
+    """Parts kept by another version, whatever its kernel, are not done again."""
+    monkeypatch.setattr("saleg.sweep.runs.__version__", "99.0")
+    done = []
+    sweep.run(
+        sweep.grid(SMALL_SWEEP), folder=stopped, chunk=2, report=lambda now, _: done.append(now)
+    )
+    assert done == [6]
+    assert json.loads((stopped / "sweep.json").read_text())["version"] != "99.0"
+
+
 def test_a_file_of_the_users_own_is_left_alone(tmp_path):
     points = sweep.grid({"bore": [0.064]})
     (tmp_path / "points.csv").write_text("mine")
