@@ -9,7 +9,9 @@ import textwrap
 import pytest
 
 import saleg
-from saleg.compiler.cache import locked, usable_folder, write_atomically
+from saleg.compiler.cache import usable_folder
+from saleg.files.atomic import write_text
+from saleg.files.lock import locked
 
 REPORT = """
 import json, sys
@@ -212,14 +214,14 @@ def test_cache_folder_is_private(tmp_path, monkeypatch):
 
 def test_files_are_written_whole_or_not_at_all(tmp_path, monkeypatch):
     target = tmp_path / "file.py"
-    write_atomically(target, "whole")
+    write_text(target, "whole")
 
     def fail(*_):
         raise OSError("disk full")
 
     monkeypatch.setattr(os, "replace", fail)
     with pytest.raises(OSError, match="disk full"):
-        write_atomically(target, "half")
+        write_text(target, "half")
     assert target.read_text() == "whole"
     assert list(tmp_path.iterdir()) == [target]
 

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from saleg.compiler import machine_code
-from saleg.compiler.cache import locked
 from saleg.errors import LawError
+from saleg.files.lock import locked
 
 
 class Kernel:

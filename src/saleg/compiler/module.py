@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.compiler.cache import locked, write_atomically
+from saleg.files.atomic import write_text
+from saleg.files.lock import locked
 
 _numbers = itertools.count()
 
@@ -53,7 +54,7 @@ def load(text: str, kind: str, folder: Path | None, names: dict[str, Any] | None
     lock = path.with_suffix(".lock")
     with locked(lock):
         if not path.is_file() or path.read_bytes() != text.encode():
-            write_atomically(path, text)
+            write_text(path, text, mode=0o600)
         return Loaded(_execute(text, path.stem, str(path), names), lock)
 
 
