@@ -217,21 +217,33 @@ def solve(gram, size):
     return True
 
 
+@inline
+def inner_product(f, a, b, share):
+    """Inner product of ``f - a`` and ``f - share b``.
+
+    Summed side by side: the mirror image of an engine has the same to the last digit, so that no
+    search depends on the side.
+    """
+    middle, left, right = 0.0, 0.0, 0.0
+    for n in range(Z_CHAMBERS):
+        middle += (f[n] - a[n]) * (f[n] - share * b[n])
+    for n in range(Z_CHAMBERS, Z_CHAMBERS + VECTOR_PER_SIDE):
+        m = n + VECTOR_PER_SIDE
+        left += (f[n] - a[n]) * (f[n] - share * b[n])
+        right += (f[m] - a[m]) * (f[m] - share * b[m])
+    n = Z_LN_MASS_MOVING
+    return middle + (f[n] - a[n]) * (f[n] - share * b[n]) + (left + right)
+
+
 @compiled
 def mix(z, f, z_old, f_old, depth, gram):
     """Weights of the latest images whose residuals cancel best; false if they are undefined."""
     for i in range(depth):
         for j in range(i, depth):
-            product = 0.0
-            for n in range(N_VECTOR):
-                product += (f[n] - f_old[i, n]) * (f[n] - f_old[j, n])
-            gram[i, j] = product
-            gram[j, i] = product
+            gram[i, j] = inner_product(f, f_old[i], f_old[j], 1.0)
+            gram[j, i] = gram[i, j]
         gram[i, depth + 1] = gram[i, i]  # against which its pivot is judged
-        right = 0.0
-        for n in range(N_VECTOR):
-            right += (f[n] - f_old[i, n]) * f[n]
-        gram[i, depth] = right
+        gram[i, depth] = inner_product(f, f_old[i], f, 0.0)
     return solve(gram, depth)
 
 

@@ -285,9 +285,8 @@ def _solved(engine: Engine, rtol: float, most: int, quick: bool) -> SteadyState:
     """Fixed point by iteration, from one start after the other; else simulation, unless quick."""
     symmetric = is_symmetric(engine)
     spent = evaluations = 0
-    for start, mirrored in itertools.product(starts(engine), (True, False)):
-        if mirrored and not symmetric:
-            continue
+    ways = (False,) if not symmetric else (True,) if quick else (True, False)
+    for start, mirrored in itertools.product(starts(engine), ways):
         state = prepare(replace(engine, start=start))
         most_steps = QUICK_STEPS if quick else STEPS_PER_CALL
         chart = ReturnMap.of(engine, state, rtol, mirrored, most_steps)
