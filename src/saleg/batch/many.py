@@ -12,13 +12,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from saleg.compiler.compose import Kernel, kernel_for
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.errors import SalegError
-from saleg.simulation.integration import SettingsError, settings_of, simulate
+from saleg.quantities import is_whole
+from saleg.simulation.initial_state import prepare
+from saleg.simulation.integration import Settings, SettingsError, integrate, settings_of
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance
 from saleg.status import Status
-from saleg.steady.solver import SteadyState, check_tolerance, steady_state
+from saleg.steady.solver import SteadyState, check_tolerance, found_steady_state
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -94,7 +96,7 @@ def steady_states(
     >>> list(table.status)
     ['steady', 'steady']
     """
-    check_tolerance(rtol)
+    rtol = check_tolerance(rtol)
     one = partial(_steady_row, rtol=rtol, multipliers=multipliers)
     units = UNITS if multipliers else STEADY_UNITS
     return table_of(one, engines, units, executor, workers, chunk, kernel_for)
@@ -126,21 +128,21 @@ def simulate_many(
     DataFrame
         One row per engine, in order: status, message and the figures of the last cycle.
     """
-    settings_of(duration, **settings)
-    one = partial(_run_row, duration=duration, settings=settings)
+    one = partial(_run_row, settings=settings_of(duration, **settings))
     return table_of(one, engines, RUN_UNITS, executor, workers, chunk, kernel_for)
 
 
 def _steady_row(engine: Engine, rtol: float, multipliers: bool) -> Row:
     """Row of a steady state."""
-    return steady_row(steady_state(engine, rtol=rtol), multipliers)
+    return steady_row(found_steady_state(engine, rtol), multipliers)
 
 
 def steady_row(
     found: SteadyState, multipliers: bool, performance: Performance | None = None
 ) -> Row:
     """Row of a steady state found or not; figures of the orbit unless others are given."""
-    row = _row(found.status, found.message, performance or found.quick_performance)
+    message = "; ".join([found.message, *_odd(found.engine, found.remarks)])
+    row = _row(found.status, message, performance or found.quick_performance)
     row["method"] = found.method
     row["half_cycles"] = float(found.half_cycles)
     row["evaluations"] = float(found.evaluations)
@@ -155,16 +157,25 @@ def steady_row(
     return row
 
 
-def _run_row(engine: Engine, duration: float, settings: Mapping[str, Any]) -> Row:
+def _run_row(engine: Engine, settings: Settings) -> Row:
     """Row of a run."""
-    return run_row(simulate(engine, duration, **settings))
+    check_engine(engine)
+    return run_row(integrate(engine, prepare(engine), settings))
 
 
 def run_row(run: Run) -> Row:
     """Row of a run: how it ended and the figures of its last cycle."""
-    row = _row(run.status, run.message, run.performance)
+    message = "; ".join([run.message, *_odd(run.engine, run.remarks)])
+    row = _row(run.status, message, run.performance)
     row["evaluations"] = float(run.evaluations)
     return row
+
+
+def _odd(engine: Engine, remarks: list[str]) -> list[str]:
+    """What a single run warns of or remarks on; in a table the message of its row says it."""
+    return [f"unusual: {problem}" for problem in engine.unusual()] + [
+        f"beyond what is built: {remark}" for remark in remarks
+    ]
 
 
 def _row(status: Status, message: str, performance: Performance) -> Row:
@@ -213,7 +224,7 @@ def table_of(
     from saleg.batch.workers import completed
 
     for name, value in (("chunk", chunk), ("workers", 1 if workers is None else workers)):
-        if not isinstance(value, (int, np.integer)) or not 1 <= value < 2**31:
+        if not is_whole(value, 1, 2**31 - 1):
             raise SettingsError(f"{name} = {value!r}: must be a whole number >= 1")
     parts: dict[int, dict[str, np.ndarray]] = {}
     chunks = enumerate(_chunks(one, items, chunk, kernel_of))

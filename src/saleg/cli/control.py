@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from saleg.cli.experiments import Done, Experiment, Line
-    from saleg.engine import Engine
+    from saleg.engine import Engine, check_engine
 
 #: The engine of Chapter 5.
 DEFAULT = "thesis-transient"
@@ -73,7 +73,7 @@ def perform(options: argparse.Namespace) -> bool:
     experiment = _experiment(options.experiment)
     _check(options, experiment)
     engine = changed(load(options.machine), options.changes)
-    engine.validate()
+    check_engine(engine)
     keywords = _keywords(options)
     if options.out is None:
         done = experiment.perform(engine, **keywords)

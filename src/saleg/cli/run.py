@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from saleg.cli.folder import FORMATS, new_folder, write_run
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.engine.toml import SLOTS, laws_by_slot, nearest, read_toml
 from saleg.errors import SalegError
 from saleg.export.formats import check
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> bool:
         result = simulate(engine, options.duration, **settings)
         print(report(result))
     else:
-        engine.validate()
+        check_engine(engine)
         with new_folder(options.out, options.force) as folder:
             result = simulate(engine, options.duration, **settings)
             names = write_run(result, folder, wanted)
@@ -85,6 +85,8 @@ def changed(engine: Engine, assignments: list[str]) -> Engine:
         path, equals, value = (part.strip() for part in text.partition("="))
         if not path or not equals or not value:
             raise CommandError(f"--set {text}: must be PATH=VALUE, such as bore=0.06")
+        if path in changes:
+            raise CommandError(f"--set {path}: given twice")
         changes[path] = _value(engine, path, value)
     return engine.replace(**changes)
 

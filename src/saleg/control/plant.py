@@ -10,7 +10,7 @@ import numpy as np
 
 from saleg.compiler.compose import check_laws
 from saleg.control.verdict import blamed, fault_message, verdict_of
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
 from saleg.kernel import layout
@@ -69,6 +69,7 @@ class Plant:
     ):
         controller = Controller(actuators=actuators or Actuators())
         self._begin(course_of(engine, controller, duration, layout.IN_PYTHON, settings))
+        warn_of_unusual(engine)
 
     @classmethod
     def _again(cls, course: Course) -> Plant:
@@ -234,7 +235,7 @@ def course_of(
 ) -> Course:
     """A run about to begin, under a controller."""
     known: Settings = settings_of(duration, **{"stall_stroke": 0.0, **settings})
-    engine.validate()
+    check_engine(engine)
     controller.validate()
     check_laws(engine, controller)
     state = prepare(engine)

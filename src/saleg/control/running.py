@@ -15,7 +15,7 @@ from saleg.compiler.controllers import control_of
 from saleg.control.plant import InPython, Plant, course_of, give, measured
 from saleg.control.sensors import Measurement, Sensors
 from saleg.control.verdict import verdict_of
-from saleg.engine import Engine
+from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
 from saleg.kernel import layout
@@ -112,7 +112,9 @@ def simulate(
     if laws and actuators is not None:
         raise SettingsError("actuators: a Controller has its own; replace those")
     if compiled and isinstance(controller, Controller):
-        return _compiled(engine, controller, duration, settings)
+        run = _compiled(engine, controller, duration, settings)
+        warn_of_unusual(engine)
+        return run
     if sample_time is not None and (
         not is_number(sample_time) or not MOST_SAMPLES * sample_time >= duration > 0.0
     ):
@@ -269,7 +271,7 @@ def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
 
 def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any) -> Row:
     """Row of a run under a controller."""
-    run = simulate(pair[0], pair[1], duration, compiled=True, **settings)
+    run = _compiled(pair[0], pair[1], duration, settings)
     return {
         **run_row(run),
         "fired_at": fired_at(run),

@@ -12,7 +12,7 @@ from saleg.engine.chambers import (
     Translator,
 )
 from saleg.engine.controller import Controller
-from saleg.engine.engine import Engine
+from saleg.engine.engine import Engine, check_engine, warn_of_unusual
 
 __all__ = [
     "BounceChamber",
@@ -26,4 +26,6 @@ __all__ = [
     "Intake",
     "SealedCylinder",
     "Translator",
+    "check_engine",
+    "warn_of_unusual",
 ]

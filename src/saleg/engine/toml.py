@@ -26,6 +26,7 @@ from saleg.engine.chambers import (
 )
 from saleg.engine.engine import Engine
 from saleg.engine.start import Start
+from saleg.engine.text_files import read_text
 from saleg.errors import EngineFileError, InvalidEngine
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.quantities import is_number
@@ -140,11 +141,9 @@ def read_toml(path: str | Path, laws: Sequence[type] = ()) -> Engine:
 
 def parsed(path: str | Path) -> dict[str, Any]:
     """Tables of a TOML file; raises EngineFileError if it is none."""
+    text = read_text(path, EngineFileError)
     try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
         return tomllib.loads(text)
-    except OSError as error:
-        raise EngineFileError(f"cannot read {path}: {error.strerror}") from None
     except (ValueError, RecursionError) as error:
         raise EngineFileError(f"{path} is not a TOML file: {error}") from None
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from saleg.compiler.compose import needs_motored_pressure
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
 from saleg.reference.books import RunningEngine
@@ -85,7 +85,7 @@ def simulate(
     >>> abs(again.performance.power / run.performance.power - 1.0) < 1e-5
     True
     """
-    engine.validate()
+    check_engine(engine)
     running = RunningEngine.started(engine, motored_pressure or needs_motored_pressure(engine))
     speed = natural_speed(running)
     method = Solver(

@@ -13,10 +13,10 @@ import numpy as np
 
 from saleg.compiler.compose import kernel_for, needs_motored_pressure, parameters
 from saleg.compiler.controllers import control_of, nobody
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine, warn_of_unusual
 from saleg.errors import SalegError
 from saleg.kernel import layout, tableaus
-from saleg.quantities import is_number
+from saleg.quantities import as_float, is_whole
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.outcome import verdict
 from saleg.simulation.records import Records
@@ -126,7 +126,8 @@ def simulate(
         stall_stroke=stall_stroke,
         keep_cycles=keep_cycles,
     )
-    engine.validate()
+    check_engine(engine)
+    warn_of_unusual(engine)
     return integrate(engine, prepare(engine), settings)
 
 
@@ -144,9 +145,9 @@ def settings_of(
 ) -> Settings:
     """Check the arguments of :func:`simulate`; all that is wrong is named together."""
     wrong = []
-    if method not in ("adaptive", "fixed"):
+    if not isinstance(method, str) or method not in ("adaptive", "fixed"):
         wrong.append(f"method = {method!r}: must be 'adaptive' or 'fixed'")
-    if not is_number(order) or order not in tableaus.FIXED_STEP:
+    if as_float(order) not in tableaus.FIXED_STEP:
         orders = ", ".join(str(number) for number in tableaus.FIXED_STEP)
         wrong.append(f"order = {order!r}: must be one of {orders}")
     for name, value, low, high in (
@@ -154,15 +155,17 @@ def settings_of(
         ("step", DEFAULT_STEP if step is None else step, 1e-12, 1.0),
         ("rtol", rtol, 9.9e-15, 1.01e-2),
     ):
-        if not is_number(value) or not low < value < high:
+        number = as_float(value)
+        if number is None or not low < number < high:
             wrong.append(f"{name} = {value!r}: must be a number > {low:g} and < {high:g}")
-    if not is_number(stall_stroke) or not 0.0 <= stall_stroke < 1.0:
+    share = as_float(stall_stroke)
+    if share is None or not 0.0 <= share < 1.0:
         wrong.append(f"stall_stroke = {stall_stroke!r}: must be a number >= 0 and < 1")
     for name, count in (("history", history), ("keep_cycles", keep_cycles)):
-        if count is None:
-            continue
-        if not (isinstance(count, (int, np.integer)) and 1 <= count < 2**31):
+        if count is not None and not is_whole(count, 1, 2**31 - 1):
             wrong.append(f"{name} = {count!r}: must be a whole number >= 1, or None")
+    if not isinstance(motored_pressure, (bool, np.bool_)):
+        wrong.append(f"motored_pressure = {motored_pressure!r}: must be True or False")
     if wrong:
         raise SettingsError("cannot simulate:\n" + "\n".join(f"  {text}" for text in wrong))
     return Settings(
@@ -174,7 +177,7 @@ def settings_of(
         history=int(history or 0),
         motored_pressure=bool(motored_pressure),
         stall_stroke=float(stall_stroke),
-        keep_cycles=keep_cycles,
+        keep_cycles=None if keep_cycles is None else int(keep_cycles),
     )
 
 

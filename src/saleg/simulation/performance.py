@@ -196,6 +196,37 @@ class Performance:
         )
 
 
+#: Figures no engine built comes near: the highest diesels reach some 300 bar, compression ratios
+#: of 70 are known from single shots, racing engines have mean piston speeds of 27 m/s.
+MOST_PRESSURE = 400e5
+MOST_COMPRESSION_RATIO = 80.0
+MOST_PISTON_SPEED = 30.0
+
+
+def remarks_on(performance: Performance) -> list[str]:
+    """Which figures no engine built comes near, as text.
+
+    Parameters
+    ----------
+    performance : Performance
+
+    Returns
+    -------
+    list of str
+        Empty for most engines, and where the figures are not known.
+    """
+    pressure, ratio = performance.peak_pressure, performance.compression_ratio
+    speed = 2.0 * performance.stroke * performance.frequency
+    found = []
+    if pressure > MOST_PRESSURE:
+        found.append(f"peak pressure {pressure / 1e5:.4g} bar (> {MOST_PRESSURE / 1e5:g})")
+    if ratio > MOST_COMPRESSION_RATIO:
+        found.append(f"compression ratio {ratio:.4g} (> {MOST_COMPRESSION_RATIO:g})")
+    if speed > MOST_PISTON_SPEED:
+        found.append(f"mean piston speed {speed:.4g} m/s (> {MOST_PISTON_SPEED:g})")
+    return found
+
+
 @dataclass(frozen=True)
 class EnergyBalance:
     """Where the energy went between two dead centres; joules.

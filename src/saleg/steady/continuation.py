@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.engine.paths import unit_of
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.orbit import Z_CHAMBERS
-from saleg.quantities import is_number
+from saleg.quantities import is_number, is_whole
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.steady.return_map import (
@@ -212,13 +212,14 @@ def branch(
     >>> [(round(value, 1), kind) for value, kind in found.stability_changes]
     [(13.9, 'quasi-periodic')]
     """
+    check_engine(engine)
     start = engine.get(path)
     if not (is_number(start) and is_number(stop)) or not math.isfinite(stop) or stop == start:
         raise NoBranch(f"cannot follow '{path}' from {start!r} to {stop!r}")
     if step is not None and not (is_number(step) and 0.0 < step < math.inf):
         raise NoBranch(f"step = {step!r}: must be a number > 0")
-    if most < 2:
-        raise NoBranch(f"most = {most!r}: must be at least 2")
+    if not is_whole(most, 2):
+        raise NoBranch(f"most = {most!r}: must be a whole number >= 2")
     engine.replace(**{path: stop}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")

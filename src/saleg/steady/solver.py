@@ -15,14 +15,20 @@ from functools import cached_property
 import numpy as np
 
 from saleg.compiler.compose import check_laws, needs_motored_pressure
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine, warn_of_unusual
 from saleg.engine.start import CompressedCharge, Start
 from saleg.kernel import layout
-from saleg.quantities import is_number
+from saleg.quantities import as_float, is_whole
 from saleg.simulation.initial_state import prepare
-from saleg.simulation.integration import Replay, Settings, SettingsError, simulate
-from saleg.simulation.performance import EnergyBalance, Performance
-from saleg.simulation.run import Run
+from saleg.simulation.integration import (
+    Replay,
+    Settings,
+    SettingsError,
+    integrate,
+    settings_of,
+)
+from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
+from saleg.simulation.run import Run, read_only
 from saleg.status import Status
 from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
 from saleg.steady.stability import Stability, stability
@@ -65,7 +71,7 @@ class SteadyState:
     method : str
         "fixed point", "continuation" (a point of a branch) or "simulation".
     strokes : ndarray of STROKE_RECORD
-        The two strokes of the cycle; empty without one.
+        The two strokes of the cycle, read-only; empty without one.
     """
 
     engine: Engine
@@ -78,6 +84,10 @@ class SteadyState:
     strokes: np.ndarray = field(repr=False)
     replay: Replay | None = field(default=None, repr=False)
     fallback: Run | None = field(default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        """Show the strokes, but let nobody write to them."""
+        self.strokes = read_only(self.strokes)
 
     @property
     def found(self) -> bool:
@@ -103,6 +113,11 @@ class SteadyState:
         if not len(self.strokes):
             return Performance.of_nothing(self.engine)
         return Performance.of_cycle(self.engine, self.strokes, self.strokes)
+
+    @property
+    def remarks(self) -> list[str]:
+        """Figures of the cycle that no engine built comes near, as text; often none."""
+        return remarks_on(self.quick_performance)
 
     @property
     def moving_mass(self) -> float:
@@ -132,14 +147,14 @@ class SteadyState:
         return self.found and self.stability.stable
 
     def __str__(self) -> str:
-        from saleg.simulation.report import describe_performance
+        from saleg.simulation.report import describe_performance, describe_remarks
 
         known = vars(self).get("stability")
         stable = "stability not examined" if known is None else known.kind
         head = f"{self.engine.name}: {self.status} ({stable}) - {self.message}"
-        return f"{head if self.found else head.replace(f' ({stable})', '')}\n" + (
-            describe_performance(self.performance)
-        )
+        head = head if self.found else head.replace(f" ({stable})", "")
+        shown = describe_performance(self.performance)
+        return "\n".join([head, shown, *describe_remarks(self.remarks)])
 
 
 def steady_state(
@@ -179,17 +194,24 @@ def steady_state(
     >>> found.found, round(found.performance.frequency, 2), found.half_cycles < 20
     (True, 46.97, True)
     """
-    check_tolerance(rtol)
-    if not isinstance(most, (int, np.integer)) or most < 0:
+    rtol = check_tolerance(rtol)
+    if not is_whole(most, 0):
         raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
-    engine.validate()
+    check_engine(engine)
+    warn_of_unusual(engine)
+    return found_steady_state(engine, rtol, int(most))
+
+
+def found_steady_state(engine: Engine, rtol: float, most: int = MOST_MAPS) -> SteadyState:
+    """Steady state of an engine, without a warning of unusual numbers."""
+    check_engine(engine)
     check_laws(engine)
     if not repeats_itself(engine):
         return waited_for(engine, rtol, 0, 0, "a law depends on time or counts charges")
-    found = _solved(engine, rtol, int(most))
+    found = _solved(engine, rtol, most)
     if found.status is Status.UNSTEADY and rtol > FINEST:
         # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
-        again = _solved(engine, max(FINER * rtol, FINEST), int(most))
+        again = _solved(engine, max(FINER * rtol, FINEST), most)
         return replace(
             again,
             half_cycles=again.half_cycles + found.half_cycles,
@@ -198,15 +220,17 @@ def steady_state(
     return found
 
 
-def check_tolerance(rtol: float) -> None:
-    """Refuse a tolerance with which nothing can be solved.
+def check_tolerance(rtol: float) -> float:
+    """A tolerance as a float; refused if nothing can be solved with it.
 
     Raises
     ------
     SettingsError
     """
-    if not is_number(rtol) or not 1e-13 <= rtol <= 1e-3:
+    number = as_float(rtol)
+    if number is None or not 1e-13 <= number <= 1e-3:
         raise SettingsError(f"rtol = {rtol!r}: must be a number from 1e-13 to 1e-3")
+    return number
 
 
 def _solved(engine: Engine, rtol: float, most: int) -> SteadyState:
@@ -280,7 +304,7 @@ def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
 
 def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
-    run = simulate(engine, FALLBACK_DURATION, rtol=rtol)
+    run = integrate(engine, prepare(engine), settings_of(FALLBACK_DURATION, rtol=rtol))
     steady = run.status in (Status.STEADY, Status.IDLING)
     strokes = run.orbit.strokes if steady and run.orbit is not None else None
     unsettled = run.status is Status.COMPLETED

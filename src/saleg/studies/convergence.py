@@ -17,7 +17,7 @@ import numpy as np
 
 from saleg.compiler.compose import kernel_for, parameters
 from saleg.compiler.controllers import nobody
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.tableaus import FIXED_STEP
@@ -343,7 +343,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
         raise SettingsError(f"step = {step!r}: must be > 0 and < duration ({duration:g} s)")
     if delay < 0 or delay != int(delay):
         raise SettingsError(f"delay = {delay!r}: must be a number of whole steps")
-    engine.validate()
+    check_engine(engine)
     kernel, state = kernel_for(engine, DELAYED), prepare(engine)
     records = Records(False, None)
     options = options_record(Settings(duration, adaptive=False, step=step), duration)

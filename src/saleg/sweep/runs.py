@@ -15,7 +15,7 @@ from saleg.batch.many import Columns, kind_of, missing, progress_bar, rows_of
 from saleg.batch.workers import check_workers, completed
 from saleg.design.designs import Design
 from saleg.engine import Engine
-from saleg.quantities import is_number
+from saleg.quantities import is_number, is_whole
 from saleg.steady.solver import DEFAULT_TOLERANCE, check_tolerance
 from saleg.sweep.points import SweepError
 from saleg.sweep.store import Folder
@@ -85,6 +85,8 @@ def run(
         If the sweep makes no sense, or the folder holds another one.
     UnknownPath
         If there is no input of that name.
+    PathsClash
+        If two inputs stand for one number.
 
     Examples
     --------
@@ -246,7 +248,7 @@ def _check(points: pd.DataFrame, subject: Subject, chunk: int, rtol: float) -> N
         raise SweepError(
             f"points are a {type(points).__name__}: must be a DataFrame, as sweep.grid makes one"
         )
-    if not isinstance(chunk, (int, np.integer)) or isinstance(chunk, bool) or chunk < 1:
+    if not is_whole(chunk, 1):
         raise SweepError(f"chunk = {chunk!r}: must be a whole number >= 1")
     if not len(points.columns):
         raise SweepError("no inputs: the points have no columns")
@@ -256,3 +258,4 @@ def _check(points: pd.DataFrame, subject: Subject, chunk: int, rtol: float) -> N
         subject.unit(str(name))
         if not all(is_number(value) for value in points[name]):
             raise SweepError(f"{name}: every value of an input must be a number")
+    subject.refuse_clash([str(name) for name in points])

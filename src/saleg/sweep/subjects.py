@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any, Protocol
@@ -16,7 +17,7 @@ from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import UnknownPath
 from saleg.quantities import is_number
-from saleg.steady.solver import steady_state
+from saleg.steady.solver import found_steady_state
 from saleg.sweep.identity import described, own_code
 from saleg.sweep.points import SweepError
 
@@ -32,6 +33,9 @@ class Subject(Protocol):
 
     def unit(self, name: str) -> str:
         """Unit of an input; raises UnknownPath if there is none of that name."""
+
+    def refuse_clash(self, names: list[str]) -> None:
+        """Refuse inputs of which two stand for one number."""
 
     def describe(self) -> dict[str, Any]:
         """All that decides about the results, as plain data."""
@@ -57,6 +61,10 @@ class DesignSubject:
         _refuse_parts(name, self.design.get(name))
         self.design.replace({name: float("nan")})  # an object of its own, to be found again
         return unit
+
+    def refuse_clash(self, names: list[str]) -> None:
+        """Refuse inputs of which two stand for one number."""
+        self.design.replace(dict.fromkeys(names, math.nan))
 
     def describe(self) -> dict[str, Any]:
         """Parameters, masses and laws."""
@@ -93,6 +101,10 @@ class EngineSubject:
             _refuse_parts(name, self.engine.get(name))
         return unit
 
+    def refuse_clash(self, names: list[str]) -> None:
+        """Refuse inputs of which two stand for one number."""
+        self.engine.replace(**dict.fromkeys(names, math.nan))
+
     def describe(self) -> dict[str, Any]:
         """The engine."""
         return {"kind": "engine", **_laws(self.engine)}
@@ -103,7 +115,7 @@ class EngineSubject:
             raise SweepError("warm starts are for designs; an engine begins with its own starts")
 
         def row(values: Values) -> Row:
-            found = steady_state(self.engine.replace(**values), rtol=rtol)
+            found = found_steady_state(self.engine.replace(**values), rtol)
             return steady_row(found, multipliers)
 
         return row
