@@ -60,6 +60,22 @@ def _distrust(folder: Path) -> str | None:
     return None
 
 
+def kept(path: Path, text: str) -> bool:
+    """Whether a composed module is in the cache, written if need be; if not, a warning says why."""
+    blocking = [name for name in (path, path.with_suffix(".lock")) if name.is_dir()]
+    try:
+        if blocking:
+            raise IsADirectoryError(f"{blocking[0].name} is a folder; remove it")
+        if not path.is_file() or path.read_bytes() != text.encode():
+            write_atomically(path, text)
+    except OSError as error:
+        warnings.warn(
+            f"a compiled kernel is not kept: {path.parent}: {error}", RuntimeWarning, stacklevel=2
+        )
+        return False
+    return True
+
+
 def write_atomically(path: Path, text: str) -> None:
     """Write a text file so that it is there whole or not at all."""
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")

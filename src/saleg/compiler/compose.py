@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from saleg.compiler.cache import locked, usable_folder, write_atomically
+from saleg.compiler.cache import kept, locked, usable_folder
 from saleg.compiler.source import Borrowed, NoSource, check_law, fingerprint
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.errors import LawError
@@ -330,11 +330,9 @@ def _load(
         return _load_from_memory(left, right, rest, modules, own)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     folder = usable_folder()
-    if folder is None:
+    path = None if folder is None else folder / f"saleg_kernel_{digest(text)}.py"
+    if path is None or not kept(path, text):
         return Kernel(execute(_in_memory(text), f"<saleg kernel {next(_numbers)}>"), None, own)
-    path = folder / f"saleg_kernel_{digest(text)}.py"
-    if not path.is_file() or path.read_bytes() != text.encode():
-        write_atomically(path, text)
     return Kernel(execute(text, str(path)), path.with_suffix(".lock"), own)
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.cache import locked, usable_folder, write_atomically
+from saleg.compiler.cache import kept, locked, usable_folder
 from saleg.compiler.compose import (
     digest,
     execute,
@@ -100,14 +100,12 @@ def _load(
 def _import(text: str) -> Any:
     """Run a module's text from the cache folder, or from memory if there is none."""
     folder = usable_folder()
-    if folder is None:
+    cached = text.replace("{cache}", "True")
+    path = None if folder is None else folder / f"saleg_controller_{digest(cached)}.py"
+    if path is None or not kept(path, cached):
         return _entry(text.replace("{cache}", "False"), "<saleg controller>")
-    text = text.replace("{cache}", "True")
-    path = folder / f"saleg_controller_{digest(text)}.py"
     with locked(path.with_suffix(".lock")):
-        if not path.is_file() or path.read_bytes() != text.encode():
-            write_atomically(path, text)
-        return _entry(text, str(path))
+        return _entry(cached, str(path))
 
 
 def _entry(text: str, filename: str) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -30,8 +31,8 @@ def as_path(path: Any, error: type[SalegError]) -> Path:
 
 
 @contextmanager
-def reading(path: Path, error: type[SalegError]) -> Iterator[None]:
-    """Refuse what is there but is no ordinary file, and name the file in what goes wrong.
+def named(path: Path, error: type[SalegError], verb: str = "read") -> Iterator[None]:
+    """Name a file in what the system says of it.
 
     Raises
     ------
@@ -39,14 +40,23 @@ def reading(path: Path, error: type[SalegError]) -> Iterator[None]:
         Of the type `error`.
     """
     try:
-        if path.exists() and not path.is_file():
-            what = "a folder" if path.is_dir() else "a device, a pipe or the like"
-            raise error(f"cannot read {path}: it is {what}, no file")
         yield
     except OSError as trouble:
         if isinstance(trouble, SalegError):
             raise
-        raise error(f"cannot read {path}: {trouble.strerror or trouble}") from None
+        raise error(f"cannot {verb} {path}: {trouble.strerror or trouble}") from None
+
+
+def is_folder(path: Path, error: type[SalegError]) -> bool:
+    """Whether a path is that of a folder; what is neither file nor folder is refused.
+
+    A pipe or a device would be waited for without end.
+    """
+    with named(path, error):
+        mode = path.stat().st_mode if path.exists() else stat.S_IFREG
+    if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
+        raise error(f"cannot read {path}: it is a pipe, a device or the like, no file")
+    return stat.S_ISDIR(mode)
 
 
 def read_text(path: Any, error: type[SalegError]) -> str:
@@ -58,7 +68,9 @@ def read_text(path: Any, error: type[SalegError]) -> str:
         Of the type `error`, naming the file and what is wrong with it.
     """
     path = as_path(path, error)
-    with reading(path, error):
+    if is_folder(path, error):
+        raise error(f"cannot read {path}: it is a folder, no file")
+    with named(path, error):
         content = path.read_bytes()
     try:
         return content.decode("utf-8-sig")

@@ -27,7 +27,7 @@ from saleg.engine.chambers import (
 from saleg.engine.engine import Engine
 from saleg.engine.start import Start
 from saleg.engine.text_files import read_text
-from saleg.errors import EngineFileError, InvalidEngine
+from saleg.errors import EngineFileError, InvalidEngine, SalegError
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.quantities import is_number
 
@@ -68,6 +68,21 @@ def laws_by_slot(own: Iterable[type] = ()) -> dict[str, dict[str, type]]:
             if isinstance(law, type) and issubclass(law, base) and law is not base:
                 found[slot][law.__name__] = law
     return found
+
+
+def checked_laws(laws: Any, error: type[SalegError]) -> list[type]:
+    """Classes of a user's own laws.
+
+    Raises
+    ------
+    SalegError
+        Of the type `error`, if they are none.
+    """
+    listed = list(laws) if isinstance(laws, Iterable) and not isinstance(laws, str) else [laws]
+    wrong = [law for law in listed if not isinstance(law, type)]
+    if wrong:
+        raise error(f"laws = {laws!r}: must be a list of classes of laws")
+    return listed
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
@@ -127,7 +142,7 @@ def read_toml(path: str | Path, laws: Sequence[type] = ()) -> Engine:
     InvalidEngine
         Naming the file and every value out of range.
     """
-    reader = _Reader(laws_by_slot(laws))
+    reader = _Reader(laws_by_slot(checked_laws(laws, EngineFileError)))
     engine = reader.engine(parsed(path))
     if reader.wrong or engine is None:
         raise EngineFileError(f"{path}:\n" + "\n".join(f"  {text}" for text in reader.wrong))

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from saleg.engine.text_files import is_folder
 from saleg.export.description import Column, Description, Table
 from saleg.export.place import RunFileError
 from saleg.export.units import CODES, LAYOUTS
@@ -118,4 +119,6 @@ def _look_into(path: Path) -> tuple[list[str], bool]:
 @contextmanager
 def opened(folder: Path) -> Iterator[_Stored]:
     """Look into a folder for reading, table by table."""
+    for name in FILES:
+        is_folder(folder / name, RunFileError)  # refuses what would be waited for without end
     yield _Stored(folder)

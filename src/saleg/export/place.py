@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from saleg.engine.text_files import is_folder
 from saleg.errors import SalegError
 
 
@@ -46,6 +47,7 @@ def new_file(target: Path, overwrite: bool = False) -> Iterator[Path]:
             raise RunFileError(f"{path} is a folder; name a file")
         if path.exists() and not overwrite:
             raise RunFileError(f"{path} exists already; name another file, or pass overwrite=True")
+        is_folder(path, RunFileError)  # refuses devices and pipes
 
     with _taking_its_place(target, check) as temporary:
         yield temporary

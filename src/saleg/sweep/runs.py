@@ -15,6 +15,7 @@ from saleg.batch.many import Columns, kind_of, missing, progress_bar, rows_of
 from saleg.batch.workers import check_workers, completed
 from saleg.design.designs import Design
 from saleg.engine import Engine
+from saleg.engine.text_files import as_path, is_folder
 from saleg.quantities import is_number, is_whole
 from saleg.steady.solver import DEFAULT_TOLERANCE, check_tolerance
 from saleg.sweep.points import SweepError
@@ -96,7 +97,12 @@ def run(
     (True, [True, True])
     """
     subject = subject_of(swept)
-    _check(points, subject, chunk, rtol)
+    rtol = check_tolerance(rtol)
+    _check(points, subject, chunk)
+    for name, value in (("multipliers", multipliers), ("warm", warm)):
+        if not isinstance(value, (bool, np.bool_)):
+            raise SweepError(f"{name} = {value!r}: must be True or False")
+    chunk, multipliers, warm = int(chunk), bool(multipliers), bool(warm)
     check_workers(executor, workers)
     solver = partial(subject.solver, rtol, multipliers, warm)
     solver()  # what it refuses, it refuses here
@@ -141,9 +147,9 @@ def load(folder: str | Path) -> pd.DataFrame:
 
 
 def _path(folder: Any) -> Path:
-    if not isinstance(folder, (str, Path)):
-        raise SweepError(f"folder = {folder!r}: must be text or a Path")
-    return Path(folder)
+    path = as_path(folder, SweepError)
+    is_folder(path, SweepError)
+    return path
 
 
 def _resumed(
@@ -239,11 +245,10 @@ def _described(table: pd.DataFrame, subject: Subject, inputs: list[str]) -> pd.D
     return table
 
 
-def _check(points: pd.DataFrame, subject: Subject, chunk: int, rtol: float) -> None:
+def _check(points: pd.DataFrame, subject: Subject, chunk: int) -> None:
     """Refuse what makes no sense before any work is done."""
     import pandas as pd
 
-    check_tolerance(rtol)
     if not isinstance(points, pd.DataFrame):
         raise SweepError(
             f"points are a {type(points).__name__}: must be a DataFrame, as sweep.grid makes one"

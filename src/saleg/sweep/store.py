@@ -23,6 +23,7 @@ import numpy as np
 
 from saleg.batch.many import Columns, kind_of
 from saleg.compiler.cache import locked
+from saleg.engine.text_files import is_folder, named
 from saleg.sweep.points import SweepError
 
 if TYPE_CHECKING:
@@ -58,11 +59,12 @@ class Folder:
         SweepError
             If it is that of another sweep, or no folder of a sweep at all.
         """
-        if self.path.is_dir() and not (self.path / DESCRIPTION).exists():
-            self._refuse_strangers(table_text(points))
         with _writing(self.path):
+            if self.path.is_dir() and not (self.path / DESCRIPTION).exists():
+                self._refuse_strangers(table_text(points))
             self.path.mkdir(parents=True, exist_ok=True)
-            (self.path / LOCK).touch()
+            with open(self.path / LOCK, "ab"):
+                pass
         with locked(self.path / LOCK):
             self._claim(json.loads(json.dumps(description)), points)
             yield
@@ -120,10 +122,10 @@ class Folder:
     def _whole(self, number: int, count: int) -> bool:
         """Whether a piece is there as it was written, with as many points."""
         try:
-            held = json.loads(self._part(number).read_text(encoding="utf-8"))
+            held = json.loads(_read(self._part(number)))
             columns = held["columns"]
             return held["sha256"] == _digest(columns) and len(columns["status"]) == count
-        except (OSError, ValueError, TypeError, KeyError):
+        except (OSError, ValueError, TypeError, KeyError, RecursionError):
             return False
 
     def finish(self, table: pd.DataFrame) -> None:
@@ -172,10 +174,8 @@ def _damaged(path: Path, why: str) -> SweepError:
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
     """Name the file in what goes wrong with it."""
-    try:
+    with named(path, SweepError, "write"):
         yield
-    except OSError as error:
-        raise SweepError(f"cannot write {path}: {error.strerror}") from None
 
 
 def _write(path: Path, text: str) -> None:
@@ -192,10 +192,11 @@ def _write(path: Path, text: str) -> None:
 
 
 def _read(path: Path) -> str:
+    is_folder(path, SweepError)  # refuses what would be waited for without end
+    with named(path, SweepError):
+        content = path.read_bytes()
     try:
-        return path.read_bytes().decode("utf-8")
-    except OSError as error:
-        raise SweepError(f"cannot read {path}: {error.strerror}") from None
+        return content.decode("utf-8")
     except ValueError:
         raise SweepError(f"{path} is damaged: it is no text") from None
 
@@ -205,7 +206,7 @@ def read_description(folder: Path) -> dict[str, Any]:
     path = folder / DESCRIPTION
     try:
         held = json.loads(_read(path))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise SweepError(f"{folder} is no folder of a sweep: {error}") from None
     if not isinstance(held, dict):
         raise SweepError(f"{folder} is no folder of a sweep: {path} holds no table")
