@@ -1,4 +1,3 @@
-import csv
 import dataclasses
 import shutil
 import subprocess
@@ -9,11 +8,8 @@ import pandas as pd
 import pytest
 
 import saleg
-from helpers import TABLES
 from saleg.cli import folder, main
 from saleg.export import csv_folder
-from saleg.simulation.report import FIGURES
-from saleg.thesis.tables import FINEST, TABLE_1, TABLE_13
 
 
 def run(*words):
@@ -71,44 +67,6 @@ def test_a_changed_engine_stands_alone(capsys):
 def test_the_other_machine(capsys):
     assert run("thesis-transient") == 0
     assert "Table 13" in capsys.readouterr().out
-
-
-def published(table):
-    """Results of a CSV table in the units of the report."""
-    units = {"kN": ("N", 1e3), "kJ": ("J", 1e3)}
-    found = {}
-    with open(TABLES / table, newline="") as file:
-        for row in csv.DictReader(file):
-            unit, factor = units.get(row["unit"], (row["unit"], 1.0))
-            found[row["quantity"]] = (float(row["value"]) * factor, unit)
-    found["charge_mass"] = found["mixture_mass"]
-    return found
-
-
-@pytest.mark.parametrize(
-    ("column", "table"),
-    [(TABLE_1, "table01_base_case.csv"), (TABLE_13, "table13_transient_device.csv")],
-)
-def test_printed_numbers_are_those_of_the_tables(column, table):
-    units = {figure: unit for figure, _, _, unit, _ in FIGURES}
-    printed = published(table)
-    for figure, value in column.figures.items():
-        assert printed[figure] == (pytest.approx(value), units[figure])
-
-
-def test_finest_column_is_that_of_the_tables():
-    steps = pd.read_csv(TABLES / "table02_step_size.csv").iloc[-1]
-    release = pd.read_csv(TABLES / "table05_heat_release.csv").iloc[0]
-    expected = {
-        "stroke": steps["stroke_mm"],
-        "peak_pressure": steps["peak_pressure_bar"],
-        "efficiency": steps["efficiency_pct"],
-        "power": steps["power_kW"],
-        "compression_ratio": release["compression_ratio"],
-        "frequency": release["frequency_Hz"],
-    }
-    assert steps["step_s"] == 5e-7
-    assert {name: float(value) for name, value in expected.items()} == FINEST.figures
 
 
 MISTAKES = [

@@ -6,8 +6,8 @@ import pytest
 
 import saleg
 from saleg.cli import main
-from saleg.cli.experiments import EXPERIMENTS
 from saleg.plotting import control as draw
+from saleg.thesis.chapter_5 import EXPERIMENTS
 
 
 @pytest.fixture(scope="module")
@@ -142,6 +142,6 @@ def test_a_demand_that_cannot_be_read(capsys, tmp_path):
 
 @pytest.mark.parametrize("name", EXPERIMENTS)
 def test_every_experiment_has_its_figures(name):
-    for picture in EXPERIMENTS[name].pictures.values():
+    for picture in EXPERIMENTS[name].draw.values():
         used = [word for word in picture.__code__.co_names if hasattr(draw, word)]
         assert len(used) == 1

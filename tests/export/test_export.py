@@ -89,7 +89,7 @@ def assert_equal_runs(one, other):
 def test_a_run_read_back_equals_the_run_saved(form, short_run, tmp_path, monkeypatch):
     save(form, short_run, tmp_path / NAMES[form])
     monkeypatch.setattr(
-        sys.modules["saleg.simulate"], "integrate", None
+        sys.modules["saleg.simulation.integration"], "integrate", None
     )  # nothing is simulated again
     loaded = load(form, tmp_path / NAMES[form])
     assert_equal_runs(short_run, loaded)

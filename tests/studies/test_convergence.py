@@ -82,14 +82,14 @@ def test_no_cost_includes_the_first_call(base, monkeypatch):
     called = []
 
     def slow_at_first(name):
-        run = getattr(studies, name)
+        run = getattr(studies.convergence, name)
 
         def spy(engine, duration, **settings):
             time.sleep(0.0 if called else 0.5)
             called.append(duration)
             return run(engine, duration, **settings)
 
-        monkeypatch.setattr(studies, name, spy)
+        monkeypatch.setattr(studies.convergence, name, spy)
 
     slow_at_first("simulate")
     slow_at_first("delayed")

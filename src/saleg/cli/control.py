@@ -15,8 +15,8 @@ from saleg.machines import CATALOGUE
 if TYPE_CHECKING:
     import pandas as pd
 
-    from saleg.cli.experiments import Done, Experiment, Line
-    from saleg.engine import Engine, check_engine
+    from saleg.engine import Engine
+    from saleg.thesis.experiment import Experiment, Line, Result
 
 #: The engine of Chapter 5.
 DEFAULT = "thesis-transient"
@@ -73,37 +73,37 @@ def perform(options: argparse.Namespace) -> bool:
     experiment = _experiment(options.experiment)
     _check(options, experiment)
     engine = changed(load(options.machine), options.changes)
-    check_engine(engine)
+    engine.validate()
     keywords = _keywords(options)
     if options.out is None:
-        done = experiment.perform(engine, **keywords)
-        print(_report(options, experiment, engine, done))
+        result = experiment.run(engine, **keywords)
+        print(_report(options, experiment, engine, result))
     else:
         from saleg.export.place import new_folder
 
         with new_folder(options.out, options.force, _known(), how="add --force") as folder:
-            done = experiment.perform(engine, **keywords)
-            names = _write(folder, engine, experiment, done)
-        print(_report(options, experiment, engine, done))
+            result = experiment.run(engine, **keywords)
+            names = _write(folder, engine, experiment, result)
+        print(_report(options, experiment, engine, result))
         print(f"\nwrote {options.out}: {', '.join(names)}")
-    if options.animate is not None and done.run is not None:
+    if options.animate is not None and result.run is not None:
         from saleg.plotting import animate
 
-        animate(done.run, options.animate, overwrite=options.force)
+        animate(result.run, options.animate, overwrite=options.force)
         print(f"wrote {options.animate}")
-    return done.run is None or done.run.status.ended_well
+    return result.run is None or result.run.status.ended_well
 
 
 def _listed() -> str:
     """All experiments, one a line."""
-    from saleg.cli.experiments import EXPERIMENTS
+    from saleg.thesis.chapter_5 import EXPERIMENTS
 
     width = max(map(len, EXPERIMENTS))
     return "\n".join(f"{name:<{width}}  {item.summary}" for name, item in EXPERIMENTS.items())
 
 
 def _experiment(name: str) -> Experiment:
-    from saleg.cli.experiments import EXPERIMENTS
+    from saleg.thesis.chapter_5 import EXPERIMENTS
 
     if name not in EXPERIMENTS:
         hint = nearest(name, EXPERIMENTS)
@@ -135,13 +135,15 @@ def _keywords(options: argparse.Namespace) -> dict[str, Any]:
     return {name: value for name, value in given.items() if value is not None}
 
 
-def _report(options: argparse.Namespace, experiment: Experiment, engine: Engine, done: Done) -> str:
+def _report(
+    options: argparse.Namespace, experiment: Experiment, engine: Engine, result: Result
+) -> str:
     """What was done, how it ended, and what was seen beside what the dissertation says."""
     beside = engine == CATALOGUE[DEFAULT]()
     head = [f"{options.experiment}: {experiment.summary}"]
-    if done.run is not None:
-        head.append(f"{done.run.engine.name}: {done.run.status} - {done.run.message}")
-    lines = experiment.report(done) if done.moved else []
+    if result.run is not None:
+        head.append(f"{result.run.engine.name}: {result.run.status} - {result.run.message}")
+    lines = experiment.report(result) if result.moved else []
     return "\n\n".join(["\n".join(head), "\n".join(_aligned(lines, beside))]).rstrip()
 
 
@@ -156,25 +158,24 @@ def _aligned(lines: list[Line], beside: bool) -> list[str]:
 
 def _known() -> tuple[str, ...]:
     """Names of all files a folder may hold."""
-    from saleg.cli.experiments import EXPERIMENTS
+    from saleg.thesis.chapter_5 import EXPERIMENTS
 
-    pictures = {name for experiment in EXPERIMENTS.values() for name in experiment.pictures}
+    pictures = {name for experiment in EXPERIMENTS.values() for name in experiment.draw}
     return (ENGINE, *TABLES, *sorted(pictures))
 
 
-def _write(folder: Path, engine: Engine, experiment: Experiment, done: Done) -> list[str]:
+def _write(folder: Path, engine: Engine, experiment: Experiment, result: Result) -> list[str]:
     """Write engine, tables and, of what moved, pictures; returns the names of the files."""
     from saleg.export.csv_folder import write_text
-    from saleg.plotting import control as draw
 
-    write_text(folder / ENGINE, (engine if done.run is None else done.run.engine).to_toml())
-    if done.run is not None:
-        write_frame(folder / "dead_centres.csv", done.run.dead_centres)
-        write_frame(folder / "cycles.csv", done.run.cycles)
-    if done.table is not None:
-        write_frame(folder / "results.csv", done.table)
-    for name, picture in experiment.pictures.items() if done.moved else ():
-        np.ravel(picture(draw, done))[0].figure.savefig(folder / name)
+    write_text(folder / ENGINE, (engine if result.run is None else result.run.engine).to_toml())
+    if result.run is not None:
+        write_frame(folder / "dead_centres.csv", result.run.dead_centres)
+        write_frame(folder / "cycles.csv", result.run.cycles)
+    if result.table is not None:
+        write_frame(folder / "results.csv", result.table)
+    for name, picture in experiment.draw.items() if result.moved else ():
+        np.ravel(picture(result))[0].figure.savefig(folder / name)
     return [name for name in _known() if (folder / name).exists()]
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from saleg.cli.folder import FORMATS, new_folder, write_run
-from saleg.engine import Engine, check_engine
+from saleg.engine import Engine
 from saleg.engine.toml import SLOTS, laws_by_slot, nearest, read_toml
 from saleg.errors import SalegError
 from saleg.export.formats import check
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> bool:
         result = simulate(engine, options.duration, **settings)
         print(report(result))
     else:
-        check_engine(engine)
+        engine.validate()
         with new_folder(options.out, options.force) as folder:
             result = simulate(engine, options.duration, **settings)
             names = write_run(result, folder, wanted)
