@@ -27,8 +27,9 @@ class Quantities:
         for field in _fields(kind):
             value = getattr(self, field.name)
             if type(value) is not float:
-                plain = _whole(value) if field.metadata.get("whole") else _plain(value)
-                object.__setattr__(self, field.name, plain)
+                limits = field.metadata.get("limits")
+                whole = limits is not None and limits.kind is int
+                object.__setattr__(self, field.name, _whole(value) if whole else _plain(value))
 
 
 def quantity(
@@ -80,8 +81,9 @@ def quantity(
     >>> str(unusual(Rod(250.0))[0])
     'length = 250.0 [m]: usually 0.01 to 3; it would be 0.25 if given in mm'
     """
-    limits = Limits(_checked_unit(unit), float(low), float(high), open_low, open_high, usual)
-    return dataclasses.field(default=default, metadata={"limits": limits, "whole": whole})
+    ends = float(low), float(high), open_low, open_high
+    limits = Limits(_checked_unit(unit), *ends, usual, int if whole else float)
+    return dataclasses.field(default=default, metadata={"limits": limits})
 
 
 def series(
@@ -161,6 +163,7 @@ class Limits(NamedTuple):
     open_low: bool
     open_high: bool
     usual: tuple[float, float] | None = None
+    kind: type = float
 
     def __str__(self) -> str:
         above = f"{'>' if self.open_low else '>='} {self.low:g}"
@@ -266,16 +269,15 @@ def problems(node: Any, path: str = "") -> list[Problem]:
     for field in _fields(kind):
         value = getattr(node, field.name)
         limits = field.metadata.get("limits")
-        if limits is not None and type(value) is float and limits.low < value < limits.high:
+        if limits is not None and type(value) is limits.kind and limits.low < value < limits.high:
             continue  # by far the most
         where = f"{path}.{field.name}" if path else field.name
         if "series" in field.metadata:
             found.extend(_series_problems(node, field, where))
         elif limits is not None:
-            whole = field.metadata.get("whole", False)
-            if not (is_whole(value) if whole else is_number(value)):
-                kind_of = "a whole number" if whole else "a number"
-                found.append(Problem(where, value, limits.unit, limits.wanted(kind_of)))
+            if not (is_number(value) if limits.kind is float else is_whole(value)):
+                wanted = "a number" if limits.kind is float else "a whole number"
+                found.append(Problem(where, value, limits.unit, limits.wanted(wanted)))
             elif not math.isfinite(value) or not limits.admits(float(value)):
                 need = "" if math.isfinite(value) else "a finite number"
                 found.append(Problem(where, value, limits.unit, limits.wanted(need)))

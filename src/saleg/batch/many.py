@@ -221,11 +221,14 @@ def table_of(
     """Send engines, or whatever `one` makes rows of, out in chunks; put the rows in order."""
     import pandas as pd
 
-    from saleg.batch.workers import completed
+    from saleg.batch.workers import check_workers, completed
 
     for name, value in (("chunk", chunk), ("workers", 1 if workers is None else workers)):
         if not is_whole(value, 1, 2**31 - 1):
             raise SettingsError(f"{name} = {value!r}: must be a whole number >= 1")
+    check_workers(executor, None)
+    if not isinstance(items, Iterable):
+        raise SettingsError(f"engines = {items!r}: must be a list of engines, or the like")
     parts: dict[int, dict[str, np.ndarray]] = {}
     chunks = enumerate(_chunks(one, items, chunk, kernel_of))
     with progress_bar(items) as bar:

@@ -10,7 +10,7 @@ import numpy as np
 
 from saleg.compiler.compose import check_laws
 from saleg.control.verdict import blamed, fault_message, verdict_of
-from saleg.engine import Engine, check_engine, warn_of_unusual
+from saleg.engine import Engine, check_controller, check_engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
 from saleg.kernel import layout
@@ -236,7 +236,7 @@ def course_of(
     """A run about to begin, under a controller."""
     known: Settings = settings_of(duration, **{"stall_stroke": 0.0, **settings})
     check_engine(engine)
-    controller.validate()
+    check_controller(controller)
     check_laws(engine, controller)
     state = prepare(engine)
     state.engine["controlled"] = controlled

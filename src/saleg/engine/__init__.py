@@ -11,7 +11,7 @@ from saleg.engine.chambers import (
     SealedCylinder,
     Translator,
 )
-from saleg.engine.controller import Controller
+from saleg.engine.controller import Controller, check_controller
 from saleg.engine.engine import Engine, check_engine, warn_of_unusual
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "Intake",
     "SealedCylinder",
     "Translator",
+    "check_controller",
     "check_engine",
     "warn_of_unusual",
 ]

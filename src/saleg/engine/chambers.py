@@ -27,7 +27,7 @@ from saleg.quantities import Quantities, quantity
 
 #: Ranges of what has been built, from a bore of 3 mm to ship engines and gas springs; a value
 #: outside is allowed but likely in another unit.
-LENGTH = 0.001, 3.0
+LENGTH = 1e-4, 3.0
 MASS = 1e-4, 1e3
 PRESSURE = 1e4, 2e7
 TEMPERATURE = 200.0, 1500.0
@@ -115,9 +115,7 @@ class Chamber(Quantities):
 
     bore: float = quantity("m", low=0, open_low=True, usual=LENGTH)
     half_stroke: float = quantity("m", low=0, open_low=True, usual=LENGTH)
-    wall_temperature: float = quantity(
-        "K", default=550.0, low=100.0, high=3000.0, usual=TEMPERATURE
-    )
+    wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0)
     head_gap: float = quantity("m", default=1e-4, low=0, open_low=True)
 
     @property

@@ -79,7 +79,10 @@ class Engine:
     @property
     def is_mirrored(self) -> bool:
         """Whether both chambers are alike."""
-        return self.left == self.right
+        try:
+            return bool(self.left == self.right)
+        except Exception:  # arrays and the like where numbers should be: `problems` names them
+            return False
 
     @property
     def chambers(self) -> tuple[Chamber, Chamber]:

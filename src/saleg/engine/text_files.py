@@ -12,7 +12,7 @@ from typing import Any
 from saleg.errors import SalegError
 
 
-def as_path(path: Any, error: type[SalegError]) -> Path:
+def as_path(path: Any, error: type[SalegError], name: str = "path") -> Path:
     """A path from what a user gives as one.
 
     Raises
@@ -26,7 +26,7 @@ def as_path(path: Any, error: type[SalegError]) -> Path:
         if "\0" in str(given):
             raise ValueError
     except (TypeError, ValueError):
-        raise error(f"{path!r} is no name of a file: must be text or a Path") from None
+        raise error(f"{name} = {path!r}: must be text or a Path, and a possible name") from None
     return given
 
 

@@ -20,7 +20,7 @@ from saleg.engine.paths import unit_of
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.orbit import Z_CHAMBERS
-from saleg.quantities import is_number, is_whole
+from saleg.quantities import as_float, is_number, is_whole
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.steady.return_map import (
@@ -213,14 +213,15 @@ def branch(
     [(13.9, 'quasi-periodic')]
     """
     check_engine(engine)
-    start = engine.get(path)
-    if not (is_number(start) and is_number(stop)) or not math.isfinite(stop) or stop == start:
+    start, end = engine.get(path), as_float(stop)
+    if not is_number(start) or end is None or not math.isfinite(end) or end == start:
         raise NoBranch(f"cannot follow '{path}' from {start!r} to {stop!r}")
-    if step is not None and not (is_number(step) and 0.0 < step < math.inf):
+    longest = abs(end - start) / 40.0 if step is None else as_float(step)
+    if longest is None or not 0.0 < longest < math.inf:
         raise NoBranch(f"step = {step!r}: must be a number > 0")
     if not is_whole(most, 2):
         raise NoBranch(f"most = {most!r}: must be a whole number >= 2")
-    engine.replace(**{path: stop}).validate()
+    engine.replace(**{path: end}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")
     if adiabatic_chambers(engine):
@@ -231,8 +232,7 @@ def branch(
     first = steady_state(engine, rtol=1e-9)
     if not first.found or first.replay is None:
         raise NoBranch(f"no steady state to begin with: {first.message}")
-    longest = step if step is not None else abs(stop - start) / 40.0
-    follower = _Follower(engine, path, float(start), float(stop), longest)
+    follower = _Follower(engine, path, float(start), end, longest)
     points: list[Point] = []
     for point in follower.points(first):
         points.append(point)

@@ -156,9 +156,9 @@ def box(ranges: Ranges) -> tuple[np.ndarray, np.ndarray]:
 def refuse_too_many(count: int) -> None:
     """Refuse a set of points that would fill the memory."""
     if count > MOST_POINTS:
+        shown = f"{min(count, 10**300):.3g}"
         raise SweepError(
-            f"{count:.3g} points are more than {MOST_POINTS:.0e}: take fewer values, or split the "
-            "sweep"
+            f"{shown} points are more than {MOST_POINTS:.0e}: take fewer values, or split the sweep"
         )
 
 

@@ -147,7 +147,7 @@ def load(folder: str | Path) -> pd.DataFrame:
 
 
 def _path(folder: Any) -> Path:
-    path = as_path(folder, SweepError)
+    path = as_path(folder, SweepError, "folder")
     is_folder(path, SweepError)
     return path
 
