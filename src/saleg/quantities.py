@@ -23,10 +23,11 @@ class Quantities:
 
     def __post_init__(self) -> None:
         """Turn every number, and every number of a tuple, into a float."""
-        kind: Any = type(self)
-        for field in _fields(kind):
+        own: Any = type(self)
+        for field in _fields(own):
             value = getattr(self, field.name)
-            if type(value) is not float:
+            kind = type(value)
+            if kind is not float and not hasattr(kind, "__dataclass_fields__"):
                 limits = field.metadata.get("limits")
                 whole = limits is not None and limits.kind is int
                 object.__setattr__(self, field.name, _whole(value) if whole else _plain(value))

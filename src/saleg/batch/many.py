@@ -97,6 +97,8 @@ def steady_states(
     ['steady', 'steady']
     """
     rtol = check_tolerance(rtol)
+    if not isinstance(multipliers, (bool, np.bool_)):
+        raise SettingsError(f"multipliers = {multipliers!r}: must be True or False")
     one = partial(_steady_row, rtol=rtol, multipliers=multipliers)
     units = UNITS if multipliers else STEADY_UNITS
     return table_of(one, engines, units, executor, workers, chunk, kernel_for)

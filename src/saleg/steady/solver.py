@@ -195,7 +195,7 @@ def steady_state(
     (True, 46.97, True)
     """
     rtol = check_tolerance(rtol)
-    if not is_whole(most, 0):
+    if not is_whole(most, 0, 2**31 - 1):
         raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
     check_engine(engine)
     warn_of_unusual(engine)
