@@ -61,7 +61,7 @@ def main(folder: Path = PICTURES) -> None:
     # Appendix C: a cloud of designs over a dimensionless group, and a map of three columns.
     cloud = sweep.run(sweep.sobol(BOX, 512, seed=2))
     print(cloud.status.value_counts().to_dict())
-    plots.groups(cloud, "stroke_to_bore")[0].figure.savefig(folder / "sweep_groups.png", dpi=60)
+    plots.groups(cloud, "stroke_to_bore")[0].figure.savefig(folder / "sweep_groups.png", dpi=56)
     ax = plots.design_map(cloud, "stroke_to_bore", "frequency", "power_density")
     ax.figure.savefig(folder / "sweep_map.png", dpi=80)
 

@@ -20,7 +20,7 @@ import saleg
 from saleg import export, performance
 from saleg.cli import main
 from saleg.export import csv_folder, description, matlab, units
-from saleg.export.place import new_file
+from saleg.files.atomic import new_file
 from saleg.kernel import layout
 from saleg.laws import Friction, ViscousFriction
 from saleg.quantities import quantity
@@ -87,9 +87,7 @@ def assert_equal_runs(one, other):
 @every_format
 def test_a_run_read_back_equals_the_run_saved(form, short_run, tmp_path, monkeypatch):
     save(form, short_run, tmp_path / NAMES[form])
-    monkeypatch.setattr(
-        sys.modules["saleg.simulate"], "integrate", None
-    )  # nothing is simulated again
+    monkeypatch.setattr("saleg.simulation.integration.integrate", None)  # nothing runs again
     loaded = load(form, tmp_path / NAMES[form])
     assert_equal_runs(short_run, loaded)
     assert loaded.performance.adverse_work == short_run.performance.adverse_work

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from saleg.compiler.compose import kernel_for
+from saleg.compiler.compiled_engine import kernel_for
 from saleg.kernel import slots
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.laws.control.base import CONTROL_SLOTS, ActuatorLaw

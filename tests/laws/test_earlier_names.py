@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import saleg
-from saleg.compiler.compose import kernel_for, methods_text
+from saleg.compiler.compiled_engine import kernel_for
 from saleg.compiler.controllers import control_of
+from saleg.compiler.text import methods_text
 from saleg.engine.controller import Controller
 from saleg.laws import Gas, GasProperties, HeatTransfer, StateLogic
 

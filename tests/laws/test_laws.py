@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from saleg import laws
-from saleg.compiler.compose import methods_text, numbers_of, record_of
+from saleg.compiler.records import numbers_of, record_of
 from saleg.compiler.source import Borrowed, NoSource
 from saleg.compiler.strength_reduction import EXPONENTIAL
+from saleg.compiler.text import methods_text
 from saleg.kernel.logarithms import Logarithms
 from saleg.laws import Charge, Gas, Motion, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law

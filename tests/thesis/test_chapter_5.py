@@ -180,7 +180,7 @@ def test_intake_temperature_follows_a_step_down(transient):
 def test_intake_temperature_follows_a_ramp_to_low_load(transient):
     """Fig. 103: efficiency "is reduced to 15 % as compared to the 38 % at full throttle"."""
     ramp = Demand.ramp(2.0, 6.0, 3905.0, 905.0)
-    run = control.demand_by_intake(transient, ramp, duration=10.0)
+    run = control.demand_by_intake(transient, ramp, duration=12.0)
     assert run.status is Status.STEADY
     assert run.performance.power == pytest.approx(905.0, rel=0.01)
     assert run.performance.efficiency == pytest.approx(0.15, abs=0.005)

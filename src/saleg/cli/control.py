@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.cli.run import CommandError, add_changes, changed, load
-from saleg.engine.toml import nearest
+from saleg.errors import nearest
+from saleg.files.atomic import write_text
+from saleg.files.tables import labelled, write_table
 from saleg.machines import CATALOGUE
 
 if TYPE_CHECKING:
@@ -86,7 +88,7 @@ def perform(options: argparse.Namespace) -> bool:
         result = experiment.run(engine, **keywords)
         print(_report(options, experiment, engine, result))
     else:
-        from saleg.export.place import new_folder
+        from saleg.files.atomic import new_folder
 
         with new_folder(options.out, options.force, _known(), how="add --force") as folder:
             result = experiment.run(engine, **keywords)
@@ -183,7 +185,6 @@ def _known() -> tuple[str, ...]:
 
 def _write(folder: Path, engine: Engine, experiment: Experiment, result: Any) -> list[str]:
     """Write engine, tables and, of what moved, pictures; returns the names of the files."""
-    from saleg.export.csv_folder import write_text
     from saleg.thesis.experiment import run_of, table_of
 
     run, table = run_of(result), table_of(result)
@@ -200,6 +201,5 @@ def _write(folder: Path, engine: Engine, experiment: Experiment, result: Any) ->
 
 def write_frame(path: Path, frame: pd.DataFrame) -> None:
     """Write a table with its units in the header, every number so that it is read back exactly."""
-    units = frame.attrs["units"]
-    labels = [f"{name} [{units[name]}]" if name in units else str(name) for name in frame]
-    frame.to_csv(path, index=False, header=labels, lineterminator="\n", encoding="utf-8")
+    with open(path, "w", encoding="utf-8", newline="\n") as file:
+        write_table(file, labelled(frame))

@@ -8,8 +8,8 @@ from typing import Any
 
 from saleg.cli.folder import FORMATS, new_folder, write_run
 from saleg.engine import Engine
-from saleg.engine.toml import SLOTS, laws_by_slot, nearest, read_toml
-from saleg.errors import SalegError
+from saleg.engine.toml import SLOTS, laws_by_slot, read_toml
+from saleg.errors import SalegError, nearest
 from saleg.export.formats import check
 from saleg.machines import CATALOGUE
 from saleg.simulation.integration import simulate

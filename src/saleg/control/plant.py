@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from saleg.compiler.compose import check_laws
 from saleg.control.sensors import measured
 from saleg.control.verdict import blamed, fault_message, verdict_of
 from saleg.engine import Engine
@@ -237,7 +236,8 @@ def course_of(
     known: Settings = settings_of(duration, **{"stall_stroke": 0.0, **settings})
     engine.validate()
     controller.validate()
-    check_laws(engine, controller)
+    engine.check_laws()
+    controller.check_laws()
     state = prepare(engine)
     state.engine["controlled"] = controlled
     return Course(engine, state, known, controller)

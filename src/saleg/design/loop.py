@@ -115,7 +115,7 @@ def solve(
     """
     check_tolerance(rtol)
     check_effort(effort)
-    _check_design(design)
+    check_design(design)
     design.validate()
     engine = design.engine(1.0)
     guess = _mass(design, Operation.guess(engine))
@@ -193,11 +193,12 @@ def evaluate(
     (True, 0.083)
     """
     design = Design() if design is None else design
-    _check_design(design)
+    check_design(design)
     return solve(design.replace(values), rtol=rtol, effort=effort)
 
 
-def _check_design(design: Any) -> None:
+def check_design(design: Any) -> None:
+    """Refuse what is no design; raises InvalidDesign."""
     if not isinstance(design, Design):
         need = "must be a saleg.design.Design, as Design().replace(bore=0.06); names go as keywords"
         raise InvalidDesign([Problem("design", design, "-", need)])

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from saleg.errors import InvalidController
+from saleg.laws.base import Law
+from saleg.laws.contract import check_laws
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     CONTROL_SLOTS,
@@ -57,6 +59,11 @@ class Controller:
     intake_control: IntakeControl = field(default_factory=RatedIntake)
     actuators: ActuatorLaw = field(default_factory=Actuators)
 
+    @property
+    def laws(self) -> dict[str, Law]:
+        """Laws of the controller by slot; its actuators are not among them."""
+        return {slot: getattr(self, slot) for slot in CONTROL_SLOTS}
+
     def problems(self) -> list[Problem]:
         """Every wrong field; empty when the controller is valid."""
         found = []
@@ -79,3 +86,13 @@ class Controller:
         found = self.problems()
         if found:
             raise InvalidController(found)
+
+    def check_laws(self) -> None:
+        """Refuse laws that cannot be compiled, before any of them is called.
+
+        Raises
+        ------
+        LawError
+            Naming law and method.
+        """
+        check_laws([*self.laws.values(), self.actuators])

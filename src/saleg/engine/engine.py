@@ -17,6 +17,7 @@ from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine
 from saleg.laws import Law, LinearLoad, LinearSprings, ViscousFriction
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
+from saleg.laws.contract import check_laws
 from saleg.quantities import Problem, is_number, problems
 
 
@@ -96,6 +97,19 @@ class Engine:
         return self.has_combustion
 
     @property
+    def laws(self) -> dict[str, Law]:
+        """All laws by the path of their slot, such as ``"left.ignition"`` or ``"springs"``."""
+        sides = zip(("left", "right"), self.chambers, strict=True)
+        found = {f"{side}.{slot}": law for side, part in sides for slot, law in part.laws.items()}
+        return found | {slot: getattr(self, slot) for slot in ENGINE_SLOTS}
+
+    @property
+    def needs_motored_pressure(self) -> bool:
+        """Whether a heat-transfer law looks at the motored pressure; it is integrated then."""
+        chambers: tuple[Any, Any] = self.chambers
+        return any(chamber.heat_transfer.needs_motored_pressure for chamber in chambers)
+
+    @property
     def maximum_stroke(self) -> float:
         """Greatest geometrically possible stroke [m]."""
         return self.left.half_stroke + self.right.half_stroke
@@ -156,6 +170,16 @@ class Engine:
         found = self.problems()
         if found:
             raise InvalidEngine(found)
+
+    def check_laws(self) -> None:
+        """Refuse laws that cannot be compiled, before any of them is called.
+
+        Raises
+        ------
+        LawError
+            Naming law and method.
+        """
+        check_laws(self.laws.values())
 
     def to_toml(self) -> str:
         """The engine as TOML text that :meth:`from_toml` reads back exactly."""

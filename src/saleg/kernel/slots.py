@@ -138,9 +138,10 @@ def alternator_electrical_power(P: Any, load_weight: float, motion: Motion) -> f
     return P.alternator.electrical_power(load_weight, motion)
 
 
-def call_at(address: int, numbers: int, memory: int, signals: int, commands: int) -> None:
-    """Call a controller by its address."""
-    CFUNCTYPE(None, *[c_void_p] * 4)(address)(numbers, memory, signals, commands)
+def call_at(address: Any, numbers: int, memory: int, signals: int, commands: int) -> None:
+    """Call a controller by its address; one of Python stands there itself."""
+    entry = address if callable(address) else CFUNCTYPE(None, *[c_void_p] * 4)(address)
+    entry(numbers, memory, signals, commands)
 
 
 def state_logic_is_motor(P: Any, memory: Any, signals: Signals) -> float:

@@ -103,7 +103,7 @@ class Control(NamedTuple):
     Attributes
     ----------
     address : int
-        Address of the compiled function, 0 for none.
+        Address of the compiled function, 0 for none; the function itself where nothing is compiled.
     numbers : ndarray
         Numbers of its laws.
     memory : ndarray, shape (CONTROL_PARTS * MEMORY,)

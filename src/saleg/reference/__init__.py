@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from saleg.compiler.compose import needs_motored_pressure
 from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
@@ -86,7 +85,7 @@ def simulate(
     True
     """
     engine.validate()
-    running = RunningEngine.started(engine, motored_pressure or needs_motored_pressure(engine))
+    running = RunningEngine.started(engine, motored_pressure or engine.needs_motored_pressure)
     speed = natural_speed(running)
     method = Solver(
         method=solver,

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.compose import check_laws
 from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.engine.start import Contents
 from saleg.errors import StartError
@@ -68,7 +67,7 @@ def prepare(engine: Engine) -> State:
     StartError
         If a law overflows or divides by zero there.
     """
-    check_laws(engine)
+    engine.check_laws()
     try:
         return _prepare(engine)
     except (ArithmeticError, ValueError) as error:

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.compose import kernel_for, needs_motored_pressure
-from saleg.compiler.controllers import control_of
+from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout, tableaus
@@ -209,27 +208,24 @@ class Course:
         settings: Settings,
         controller: Controller | None = None,
     ):
-        if needs_motored_pressure(engine):
+        if engine.needs_motored_pressure:
             settings = replace(settings, motored_pressure=True)
         self.engine, self.state, self.settings = engine, state, settings
         self.controller = controller
-        actuators = controller.actuators if controller is not None else None
-        self.kernel = kernel_for(engine, actuators=actuators)
-        asks = controller is not None and state.engine["controlled"][0] == layout.COMPILED
-        control = control_of(controller) if asks and controller else None
+        asks = state.engine["controlled"][0] == layout.COMPILED
+        compiled = compiled_engine(engine, controller, asks=asks)
+        self.kernel = compiled.kernel
         self.options = options_record(settings, state.time + settings.duration)
         self.records = Records(bool(settings.history), settings.keep_cycles)
         method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
         order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
         self._arguments = arguments_of(
-            engine,
+            compiled,
             state,
             tableau=method,
             order=order,
             options=self.options,
             tables=self.records.tables,
-            actuators=actuators,
-            control=control,
         )
         #: What else people want to know of how the run came about.
         self.described: dict[str, Any] = {}

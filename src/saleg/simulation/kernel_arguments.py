@@ -7,31 +7,27 @@ from typing import Any
 
 import numpy as np
 
-from saleg.compiler.compose import parameters
-from saleg.compiler.controllers import nobody
-from saleg.engine import Engine
+from saleg.compiler.compiled_engine import CompiledEngine
 from saleg.kernel import layout
-from saleg.kernel.tuples import Control, Integration, Scratch, Snapshots, Spare, Tableau, Tables
-from saleg.laws.control.base import ActuatorLaw
+from saleg.kernel.tuples import Integration, Scratch, Snapshots, Spare, Tableau, Tables
 from saleg.simulation.initial_state import State
 
 
 def arguments_of(
-    engine: Engine,
+    compiled: CompiledEngine,
     state: State,
     *,
     tableau: Tableau,
     order: float,
     options: np.ndarray,
     tables: Tables,
-    actuators: ActuatorLaw | None = None,
-    control: Control | None = None,
 ) -> Integration:
     """Arguments of the integrator for an engine.
 
     Parameters
     ----------
-    engine : Engine
+    compiled : CompiledEngine
+        Kernel, laws and controller.
     state : State
         Where it stands; every call moves it.
     tableau : Tableau
@@ -42,17 +38,13 @@ def arguments_of(
         What is asked of the integrator.
     tables : Tables
         Room for what is recorded.
-    actuators : ActuatorLaw, optional
-        Actuators before the engine.
-    control : Control, optional
-        Controller the kernel asks; nobody unless given.
 
     Returns
     -------
     Integration
     """
     return Integration(
-        laws=parameters(engine, actuators),
+        laws=compiled.parameters,
         engine=state.engine,
         chambers=state.chambers,
         y=state.y,
@@ -63,7 +55,7 @@ def arguments_of(
         tables=tables,
         snapshots=_snapshots(state),
         scratch=_scratch(len(tableau.b)),
-        control=control or nobody(),
+        control=compiled.control,
     )
 
 

@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.compiler.compose import Kernel, kernel_for, needs_motored_pressure
+from saleg.compiler.compiled_engine import compiled_engine
+from saleg.compiler.kernel import Kernel
 from saleg.engine import BounceChamber, Chamber, Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.orbit import (
@@ -141,7 +142,7 @@ class ReturnMap:
             duration=math.inf,
             rtol=rtol,
             peaks=0,
-            motored_pressure=needs_motored_pressure(engine),
+            motored_pressure=engine.needs_motored_pressure,
         )
         E = state.engine[0]
         options = options_record(settings, math.inf)
@@ -155,22 +156,22 @@ class ReturnMap:
             history=np.zeros(0, layout.HISTORY_RECORD),
             filled=np.zeros(1, layout.FILLED_RECORD),
         )
+        compiled = compiled_engine(engine)
         arguments = arguments_of(
-            engine,
+            compiled,
             state,
             tableau=tableaus.ADAPTIVE,
             order=tableaus.ADAPTIVE_ORDER,
             options=options,
             tables=tables,
         )
-        kernel = kernel_for(engine)
         mapping = ReturnMapping(
             integration=arguments,
-            address=kernel.address("run_on", (arguments,)),
+            address=compiled.kernel.address("run_on", (arguments,)),
             spare_chamber=np.zeros(1, layout.CHAMBER_RECORD),
             mirrored=mirrored,
         )
-        return cls(engine, kernel, state, mirrored, strokes, mapping, _iterates())
+        return cls(engine, compiled.kernel, state, mirrored, strokes, mapping, _iterates())
 
     @property
     def snapshots(self) -> Snapshots:
@@ -296,7 +297,7 @@ def constant_entries(engine: Engine) -> set[int]:
         if isinstance(chamber, BounceChamber):
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
             kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED}
-        if not needs_motored_pressure(engine):
+        if not engine.needs_motored_pressure:
             kept.add(first + Z_LN_MOTORED)
     return kept
 
@@ -308,7 +309,7 @@ def conserved_entries(engine: Engine) -> set[int]:
 
 def sealed_entries(engine: Engine, wanted: Sequence[bool] = (True, True)) -> set[int]:
     """Entries of the vector for the pressures in those chambers that never open."""
-    entries = [Z_LN_PRESSURE] + [Z_LN_MOTORED] * needs_motored_pressure(engine)
+    entries = [Z_LN_PRESSURE] + [Z_LN_MOTORED] * engine.needs_motored_pressure
     return {
         Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
         for side, chamber in enumerate(engine.chambers)

@@ -15,7 +15,6 @@ from functools import cached_property
 
 import numpy as np
 
-from saleg.compiler.compose import check_laws, needs_motored_pressure
 from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError
@@ -239,7 +238,7 @@ def steady_state(
     if not isinstance(most, (int, np.integer)) or most < 0:
         raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
     engine.validate()
-    check_laws(engine)
+    engine.check_laws()
     check_effort(effort)
     quick = effort is Effort.QUICK
     if not repeats_itself(engine):
@@ -338,7 +337,7 @@ def result_of(
     chart.begin_on_the_left()
     engine, strokes = chart.engine, chart.strokes[:2].copy()
     snapshots = Snapshots(*(part.copy() for part in chart.snapshots))
-    settings = Settings(duration=0.0, rtol=rtol, motored_pressure=needs_motored_pressure(engine))
+    settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
     status, what = _kind(engine, strokes)
     symmetry = "half-cycle map, mirrored" if chart.mirrored else "full-cycle map"
     message = (

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.compose import kernel_for, parameters
-from saleg.compiler.controllers import nobody
+from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
@@ -292,13 +291,12 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
     if delay < 0 or delay != int(delay):
         raise SettingsError(f"delay = {delay!r}: must be a number of whole steps")
     engine.validate()
-    kernel, state = kernel_for(engine, DELAYED), prepare(engine)
+    (kernel, P, control), state = compiled_engine(engine, modules=DELAYED), prepare(engine)
     records = Records(False, None)
     options = options_record(Settings(duration, adaptive=False, step=step), duration)
     forces = np.full(int(delay) + 1, _gas_force(state))
     work = tuple(np.zeros(layout.N_ALL) for _ in range(3))
-    tables, control = records.tables, nobody()
-    P, code = parameters(engine), layout.BUFFER_FULL
+    tables, code = records.tables, layout.BUFFER_FULL
     while code == layout.BUFFER_FULL:
         code = kernel.call(
             "run_delayed",

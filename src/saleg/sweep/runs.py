@@ -2,31 +2,28 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from saleg.batch.many import Columns, kind_of, missing, progress_bar, rows_of
-from saleg.batch.workers import check_workers, completed
+from saleg.batch.points import Evaluation
+from saleg.batch.table import CHUNK, Columns
 from saleg.design.designs import Design
 from saleg.engine import Engine
-from saleg.quantities import is_number
+from saleg.errors import SweepError
 from saleg.steady.solver import DEFAULT_TOLERANCE, Effort, check_effort, check_tolerance
-from saleg.sweep.points import SweepError
 from saleg.sweep.store import Folder
-from saleg.sweep.subjects import Subject, Values, subject_of
+from saleg.sweep.subjects import Subject, subject_of
 from saleg.version import __version__
 
 if TYPE_CHECKING:
     import pandas as pd
 
-#: Points sent to a worker at a time.
-CHUNK = 32
+#: Grows when what is kept in a folder changes its meaning; a new kernel is no such change.
+FORMAT = 1
+Report = Callable[[int, int], None]
 
 
 def run(
@@ -41,7 +38,7 @@ def run(
     multipliers: bool = True,
     warm: bool = False,
     effort: Effort = Effort.THOROUGH,
-    report: Callable[[int, int], None] | None = None,
+    report: Report | None = None,
 ) -> pd.DataFrame:
     """Evaluate every point of a sweep.
 
@@ -89,6 +86,8 @@ def run(
         If the sweep makes no sense, or the folder holds another one.
     UnknownPath
         If there is no input of that name.
+    WorkersError
+        If nobody could do the work so.
 
     Examples
     --------
@@ -98,29 +97,25 @@ def run(
     (True, [True, True])
     """
     subject = subject_of(swept)
-    _check(points, subject, chunk, rtol)
-    check_workers(executor, workers)
+    check_tolerance(rtol)
     check_effort(effort)
     solver = partial(subject.solver, rtol, multipliers, warm, effort)
-    solver()  # what it refuses, it refuses here
-    points = _described(points.reset_index(drop=True), subject, [str(name) for name in points])
-    pieces = [(n, points.iloc[n * chunk : (n + 1) * chunk]) for n in range(_count(points, chunk))]
-    job = partial(_rows, solver)
+    evaluation = Evaluation(points, subject, solver, chunk, executor, workers)
     if folder is None:
-        return _table(points, dict(_work(job, pieces, executor, workers, report)), subject)
+        return evaluation.table(dict(_work(evaluation, report)))
     settings = {"rtol": rtol, "multipliers": multipliers, "warm": warm, "chunk": chunk}
     if effort is not Effort.THOROUGH:  # folders from before there was a choice stay what they are
         settings["effort"] = effort.value
-    description = {
-        "version": __version__,
+    identity = {
+        "format": FORMAT,
         "swept": subject.describe(),
         "settings": settings,
-        "inputs": {str(name): subject.unit(str(name)) for name in points},
+        "inputs": evaluation.input_units,
         "count": len(points),
     }
     kept = Folder(_path(folder))
-    with kept.opened(description, points):
-        return _resumed(kept, job, pieces, points, subject, executor, workers, report)
+    with kept.opened(identity, evaluation.points, begun_by=__version__):
+        return _resumed(kept, evaluation, report)
 
 
 def load(folder: str | Path) -> pd.DataFrame:
@@ -151,115 +146,31 @@ def _path(folder: Any) -> Path:
     return Path(folder)
 
 
-def _resumed(
-    kept: Folder,
-    job: Callable[[list[Values]], Columns],
-    pieces: list[tuple[int, pd.DataFrame]],
-    points: pd.DataFrame,
-    subject: Subject,
-    executor: Executor | None,
-    workers: int | None,
-    report: Callable[[int, int], None] | None,
-) -> pd.DataFrame:
+def _resumed(kept: Folder, evaluation: Evaluation, report: Report | None) -> pd.DataFrame:
     """Do what is not done yet and keep it."""
+    total = len(evaluation.points)
     if kept.finished:
         kept.clear()  # what was left if the end was interrupted
         if report is not None:
-            report(len(points), len(points))
+            report(total, total)
         return load(kept.path)
-    done = kept.done({number: len(piece) for number, piece in pieces})
-    left = [piece for piece in pieces if piece[0] not in done]
-    before = len(points) - sum(len(piece) for _, piece in left)
-    for _ in _work(job, left, executor, workers, report, before, kept.keep):
+    for _ in _work(evaluation, report, kept):
         pass
-    parts = {number: kept.piece(number) for number, _ in pieces}
-    kept.finish(_table(points, parts, subject))
+    kept.finish(evaluation.table(kept.parts(total, evaluation.chunk)))
     return load(kept.path)
 
 
 def _work(
-    job: Callable[[list[Values]], Columns],
-    pieces: list[tuple[int, pd.DataFrame]],
-    executor: Executor | None,
-    workers: int | None,
-    report: Callable[[int, int], None] | None,
-    before: int = 0,
-    keep: Callable[[int, Columns], None] | None = None,
+    evaluation: Evaluation, report: Report | None, kept: Folder | None = None
 ) -> Iterator[tuple[int, Columns]]:
-    """Results of pieces as they are done, kept before they are reported."""
-    total = before + sum(len(piece) for _, piece in pieces)
-    sent = ((number, _values(piece)) for number, piece in pieces)
-    if pieces:
-        job(_values(pieces[0][1].iloc[:1]))  # compiles once, before workers race for it
-    done = before
-    with progress_bar(range(total)) as bar:
-        for number, columns in completed(job, sent, executor, workers):
-            if keep is not None:
-                keep(number, columns)
-            count = len(columns["status"])
-            done += count
-            if bar is not None:
-                bar.update(count)
-            if report is not None:
-                report(done, total)
-            yield number, columns
-
-
-def _rows(
-    solver: Callable[[], Callable[[Values], dict[str, Any]]], points: list[Values]
-) -> Columns:
-    """Rows of a piece; each piece begins without memory."""
-    return rows_of(solver(), points)
-
-
-def _values(piece: pd.DataFrame) -> list[Values]:
-    """Points of a piece, each by name of the input."""
-    return [{str(name): float(x) for name, x in row.items()} for row in piece.to_dict("records")]
-
-
-def _count(points: pd.DataFrame, chunk: int) -> int:
-    return math.ceil(len(points) / chunk)
-
-
-def _table(points: pd.DataFrame, parts: dict[int, Columns], subject: Subject) -> pd.DataFrame:
-    """Inputs and results in order."""
-    ordered = [parts[number] for number in sorted(parts)]
-    names = [name for name in subject.units if any(name in part for part in ordered)]
-    table = points.copy()
-    for name in names:
-        if name in points:
-            continue
-        values: list[Any] = []
-        for part in ordered:
-            values += part.get(name, [missing(name)] * len(part["status"]))
-        table[name] = np.array(values, dtype=kind_of(name))
-    return _described(table, subject, [str(name) for name in points])
-
-
-def _described(table: pd.DataFrame, subject: Subject, inputs: list[str]) -> pd.DataFrame:
-    units = {name: subject.unit(name) for name in inputs}
-    known = {**subject.units, **units}
-    table.attrs["units"] = {str(name): known[str(name)] for name in table}
-    table.attrs["inputs"] = inputs
-    return table
-
-
-def _check(points: pd.DataFrame, subject: Subject, chunk: int, rtol: float) -> None:
-    """Refuse what makes no sense before any work is done."""
-    import pandas as pd
-
-    check_tolerance(rtol)
-    if not isinstance(points, pd.DataFrame):
-        raise SweepError(
-            f"points are a {type(points).__name__}: must be a DataFrame, as sweep.grid makes one"
-        )
-    if not isinstance(chunk, (int, np.integer)) or isinstance(chunk, bool) or chunk < 1:
-        raise SweepError(f"chunk = {chunk!r}: must be a whole number >= 1")
-    if not len(points.columns):
-        raise SweepError("no inputs: the points have no columns")
-    if not points.columns.is_unique:
-        raise SweepError(f"an input stands twice in {', '.join(map(str, points.columns))}")
-    for name in points:
-        subject.unit(str(name))
-        if not all(is_number(value) for value in points[name]):
-            raise SweepError(f"{name}: every value of an input must be a number")
+    """Results of pieces not done yet, kept before they are reported."""
+    total = len(evaluation.points)
+    before = kept.parts(total, evaluation.chunk) if kept is not None else {}
+    done = sum(len(columns["status"]) for columns in before.values())
+    for number, columns in evaluation.parts(done=before):
+        if kept is not None:
+            kept.keep(number, columns)
+        done += len(columns["status"])
+        if report is not None:
+            report(done, total)
+        yield number, columns

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 #: When a demand changes, when a ramp is over [s]; by how much power falls [W] (Fig. 100 to 103).
 CHANGES, RAMP_ENDS, STEP, RAMP = 2.0, 6.0, 2000.0, 3000.0
 #: Time simulated after a step and after a ramp [s].
-STEP_LASTS, RAMP_LASTS = 6.0, 10.0
+STEP_LASTS, RAMP_LASTS = 6.0, 12.0
 #: Intake temperature of the map over the equivalence ratio (Fig. 104) [K].
 WARM = 370.0
 

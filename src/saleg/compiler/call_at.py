@@ -1,4 +1,4 @@
-"""Calls of compiled functions by their addresses, for composed modules.
+"""Call of a controller by its address, as composed modules have it.
 
 What is called so is compiled once, by itself: its caller neither repeats its machine code nor
 depends on its text.
@@ -21,18 +21,3 @@ def call_at(typing_context, address, numbers, memory, signals, commands):
         return context.get_dummy_value()
 
     return types.void(*[types.int64] * 5), generate
-
-
-@intrinsic
-def run_at(typing_context, address, run):
-    """Call the integrator with its arguments; returns its code."""
-
-    def generate(context, builder, signature, arguments):
-        kind = context.call_conv.get_function_type(types.int64, [run])
-        function = builder.inttoptr(arguments[0], ir.PointerType(kind))
-        _, code = context.call_conv.call_function(
-            builder, function, types.int64, [run], [arguments[1]]
-        )
-        return code
-
-    return types.int64(types.int64, run), generate
