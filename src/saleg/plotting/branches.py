@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new, finish
 from saleg.simulation.performance import UNITS
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from saleg.steady.continuation import Branch
 
 UNSTABLE_COLOUR = "#CC3311"
@@ -18,7 +21,8 @@ UNSTABLE_COLOUR = "#CC3311"
 READ = {"m": (1e3, "mm"), "W": (1e-3, "kW"), "Pa": (1e-5, "bar")}
 
 
-def bifurcation(branch: Branch, figure: str = "stroke", ax: Any = None) -> Any:
+@documented()
+def bifurcation(branch: Branch, figure: str = "stroke", ax: Axes | None = None) -> Axes:
     """A figure of the steady states along a parameter: solid where stable, dashed where not.
 
     Parameters
@@ -26,12 +30,6 @@ def bifurcation(branch: Branch, figure: str = "stroke", ax: Any = None) -> Any:
     branch : Branch
     figure : str
         Field of :class:`saleg.Performance`.
-    ax : matplotlib Axes, optional
-        Drawn into; a new one unless given.
-
-    Returns
-    -------
-    matplotlib Axes
     """
     ax = axes_or_new(ax)
     table = branch.table

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from inspect import cleandoc
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
 from saleg.errors import SalegError
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import (
     APART,
     COLOURS,
@@ -139,26 +139,6 @@ class FigureOfRun(Protocol):
         """Draw on the axes handed in, or on new ones."""
 
 
-#: What the docstring of every figure of the last cycle ends with.
-CONVENTIONS = """
-
-Parameters
-----------
-run : Run
-ax : matplotlib.axes.Axes, optional
-    Axes to draw on; new ones unless given.
-
-Returns
--------
-matplotlib.axes.Axes
-
-Raises
-------
-NoCycle
-    If the run completed no full cycle.
-"""
-
-
 def figure_of_cycle(draw: Callable[[Cycle, Axes], Axes]) -> FigureOfRun:
     """Make a figure of a run from what draws its last cycle; completes the docstring."""
 
@@ -167,8 +147,8 @@ def figure_of_cycle(draw: Callable[[Cycle, Axes], Axes]) -> FigureOfRun:
 
     figure.__module__, figure.__name__ = draw.__module__, draw.__name__
     figure.__qualname__ = draw.__qualname__
-    figure.__doc__ = cleandoc(draw.__doc__ or "") + CONVENTIONS
-    return figure
+    figure.__doc__ = draw.__doc__
+    return documented()(figure)
 
 
 def time_axis(ax: Axes, cycle: Cycle) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from saleg.design import formulas
 from saleg.design.geometry import Geometry
+from saleg.plotting.docstrings import documented
 from saleg.plotting.machine import WALL, housing, mover, piston, springs
 from saleg.plotting.style import (
     LEFT_COLOUR,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 WIDEST, HIGHEST, NARROWEST = 10.6, 6.4, 4.5
 
 
+@documented()
 def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
     """Draw the engine to scale with the translator at its midpoint (Figure 62) [mm].
 
@@ -36,12 +38,6 @@ def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     geometry : Geometry
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     mm = {name: 1e3 * value for name, value in geometry.to_dict().items()}
     depth = 0.5 * np.fmax(mm["mover_outer_diameter"], mm["bore"]) + 3.0 * WALL
@@ -106,6 +102,7 @@ def _label(ax: Axes, x: float, y: float, text: str) -> None:
     ax.text(x, y, text, ha="center", va="center", fontsize="x-small", bbox=look)
 
 
+@documented()
 def alternator_map(
     powers: Sequence[float] = (1e3, 10e3, 100e3), ax: Axes | None = None
 ) -> np.ndarray:
@@ -156,18 +153,9 @@ def alternator_map(
     return panels
 
 
+@documented()
 def piston_mass(ax: Axes | None = None) -> Axes:
-    """Draw the mass of both piston heads [kg] over bore [mm] (Figure 65, Eq. 65).
-
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-    """
+    """Draw the mass of both piston heads [kg] over bore [mm] (Figure 65, Eq. 65)."""
     ax = axes_or_new(ax)
     bore = np.linspace(0.01, 0.1, 91)
     ax.plot(1e3 * bore, [formulas.piston_mass(b) for b in bore], color=TRANSLATOR_COLOUR)
@@ -177,6 +165,7 @@ def piston_mass(ax: Axes | None = None) -> Axes:
     return finish(ax, "Piston heads (Eq. 65)", None)
 
 
+@documented()
 def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> Axes:
     """Draw the natural frequency [Hz] over spring stiffness [kN/m] (Figure 66, Eq. 67).
 
@@ -187,12 +176,6 @@ def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> Axes:
     ----------
     rest : float
         Moving mass of all that is no spring [kg].
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     ax = axes_or_new(ax)
     stiffness = np.linspace(5e3, 300e3, 200)

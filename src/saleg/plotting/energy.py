@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from saleg.plotting.cycle import NoCycle, titled
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
 
 if TYPE_CHECKING:
@@ -91,18 +92,9 @@ def joules(energy: float) -> str:
     return f"{energy:.0f} J" if abs(energy) >= 100.0 else f"{energy:.3g} J"
 
 
+@documented()
 def energy_pie(run: Run, ax: Axes | None = None) -> Axes:
     """Draw where the fuel's energy went in the last full cycle [%] (Figure 41 of the thesis).
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
 
     Raises
     ------

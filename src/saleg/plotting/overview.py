@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saleg.plotting.cycle import NoCycle, last_cycle, titled
+from saleg.plotting.docstrings import documented
 from saleg.plotting.gas import pressure_position
 from saleg.plotting.style import (
     COINCIDING,
@@ -29,24 +30,9 @@ if TYPE_CHECKING:
 LEAST_SPAN = 1e-4
 
 
+@documented(axes=2)
 def dynamics(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
-    """Draw velocity and pressures over position side by side (Figure 92 of the thesis).
-
-    Parameters
-    ----------
-    run : Run
-    ax : array of two matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (2,)
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
-    """
+    """Draw velocity and pressures over position side by side (Figure 92 of the thesis)."""
     last_cycle(run)
     panels = panels_or_new(ax, (1, 2), 10.0, 4.2)
     legend = velocity_position(run, panels[0]).get_legend()
@@ -56,26 +42,12 @@ def dynamics(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
     return panels
 
 
+@documented(axes=4)
 def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw how a run settles, one point per cycle (Figure 42 of the thesis).
 
     Stroke [mm], dead centres as distances from the midpoint [mm], compression ratio and electrical
     power [kW] over time [s]. What varies by less than 1e-4 of itself looks constant.
-
-    Parameters
-    ----------
-    run : Run
-    ax : array of four matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (4,)
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
     cycles = run.cycles
     if len(cycles) == 0:

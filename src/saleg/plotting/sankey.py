@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from saleg.plotting.cycle import NoCycle, titled
+from saleg.plotting.docstrings import documented
 from saleg.plotting.energy import FLOW_COLOURS, VISIBLE, balance_of, joules, visible_flows
 from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new
 
@@ -31,6 +32,7 @@ class _Node(NamedTuple):
     branches: tuple[str, ...]
 
 
+@documented()
 def energy_sankey(run: Run, ax: Axes | None = None) -> Axes:
     """Draw the energy balance of the last full cycle as a Sankey diagram [J, %].
 
@@ -38,16 +40,6 @@ def energy_sankey(run: Run, ax: Axes | None = None) -> Axes:
     elsewhere in a cycle that is not steady (out of springs and gas, say) joins from above. Flows
     below 0.1 % are left out. Adverse work is no term of the balance, since the gas gets it back,
     and stands in a note.
-
-    Parameters
-    ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
 
     Raises
     ------

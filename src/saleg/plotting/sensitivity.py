@@ -25,6 +25,7 @@ from saleg.plotting.cycle import (
     Quantity,
     last_cycle,
 )
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import axes_or_new, finish, from_zero, new_figure, zero_lines
 from saleg.quantities import is_number
 from saleg.simulation.report import FIGURES
@@ -59,27 +60,12 @@ TRENDS = ("compression_ratio", "efficiency", "frequency", "heat_transfer_share")
 REGULATED = ("stroke", "compression_ratio", "frequency", "power", "efficiency", "peak_pressure")
 
 
+@documented()
 def pressure_volume(study: Study, ax: Axes | None = None) -> Axes:
     """Draw pressure [bar] over volume [cm^3] of the left chamber, one curve per value.
 
     As Figures 46, 48, 49, 51, 52, 54 and 57. The axis shows the volumes near dead centre; widen it
     to see the rest.
-
-    Parameters
-    ----------
-    study : Study
-        From :func:`saleg.sensitivity.study` or one of the studies built on it.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If no run of the study completed a full cycle.
 
     Examples
     --------
@@ -99,78 +85,33 @@ def pressure_volume(study: Study, ax: Axes | None = None) -> Axes:
 NEAR_DEAD_CENTRE = 0.4
 
 
+@documented()
 def velocity_position(study: Study, ax: Axes | None = None) -> Axes:
     """Draw velocity [m/s] over position [mm] of the translator, one curve per value.
 
     As Figures 45, 47, 53 and 59.
-
-    Parameters
-    ----------
-    study : Study
-        From :func:`saleg.sensitivity.study` or one of the studies built on it.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If no run of the study completed a full cycle.
     """
     ax = axes_or_new(ax)
     zero_lines(ax, x=True, y=True)
     return _finish(_curves(study, POSITION, VELOCITY, ax), study, "Velocity and position", "center")
 
 
+@documented()
 def pressure_time(study: Study, ax: Axes | None = None) -> Axes:
     """Draw pressure [bar] of the left chamber around its dead centre [ms], one curve per value.
 
     As the left half of Figure 44.
-
-    Parameters
-    ----------
-    study : Study
-        From :func:`saleg.sensitivity.study` or one of the studies built on it.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If no run of the study completed a full cycle.
     """
     ax = _around_dead_centre(study, PRESSURE, ax)
     from_zero(ax)
     return _finish(ax, study, "Pressure around dead centre", "upper right")
 
 
+@documented()
 def heat_flow_time(study: Study, ax: Axes | None = None) -> Axes:
     """Draw the heat flow to the walls [kW] of the left chamber around its dead centre [ms].
 
     As the right half of Figure 44, one curve per value.
-
-    Parameters
-    ----------
-    study : Study
-        From :func:`saleg.sensitivity.study` or one of the studies built on it.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If no run of the study completed a full cycle.
     """
     ax = axes_or_new(ax)
     zero_lines(ax, y=True)
@@ -178,6 +119,7 @@ def heat_flow_time(study: Study, ax: Axes | None = None) -> Axes:
     return _finish(ax, study, "Heat to the walls around dead centre", "upper right")
 
 
+@documented()
 def release_rates(study: Study, ax: Axes | None = None) -> Axes:
     """Draw the burn rate [%/ms] over the time since the start of combustion [ms].
 
@@ -187,17 +129,6 @@ def release_rates(study: Study, ax: Axes | None = None) -> Axes:
     ----------
     study : Study
         From :func:`saleg.sensitivity.release_profiles` or :func:`saleg.sensitivity.study`.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    NoCycle
-        If no run of the study completed a full cycle.
     """
     ax = axes_or_new(ax)
     for look, cycle in _drawn(study, ax):
@@ -214,6 +145,7 @@ def release_rates(study: Study, ax: Axes | None = None) -> Axes:
     return _finish(ax, study, "Heat release", "upper right")
 
 
+@documented()
 def trends(
     table: pd.DataFrame,
     figures: Sequence[str] = TRENDS,
@@ -261,6 +193,7 @@ def trends(
     return panels
 
 
+@documented(axes=2)
 def regulator_gains(
     table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None
 ) -> np.ndarray:
@@ -272,12 +205,6 @@ def regulator_gains(
     ----------
     table : DataFrame
         From :func:`saleg.sensitivity.regulator_gains`, with a stable row at the engine's own gain.
-    ax : array of two matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (2,)
 
     Raises
     ------

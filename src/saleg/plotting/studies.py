@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import axes_or_new, finish
 from saleg.studies.printed import is_of_base_case
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 MARKERS = "osD^vPX*"
 
 
+@documented()
 def work_precision(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
     """Draw error [-] over right-hand sides evaluated [-], one line per method.
 
@@ -25,12 +27,6 @@ def work_precision(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
     ----------
     table : DataFrame
         From :func:`saleg.studies.work_precision`.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     ax = axes_or_new(ax)
     for marker, (method, rows) in zip(
@@ -44,6 +40,7 @@ def work_precision(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
     return finish(ax, "Work and precision", "best")
 
 
+@documented()
 def delay(
     table: pd.DataFrame,
     ax: Axes | None = None,
@@ -55,15 +52,9 @@ def delay(
     ----------
     table : DataFrame
         From :func:`saleg.studies.delay_study`.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
     printed : mapping of float to mapping, optional
         Published rows by step [s], drawn as rings, such as ``saleg.thesis.tables.TABLE_2``. A
         study of any other engine than the base case it is printed for stays without them.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     from matplotlib import colormaps
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saleg.errors import SweepError
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import (
     LEFT_COLOUR,
     RIGHT_COLOUR,
@@ -142,6 +143,7 @@ def values(table: pd.DataFrame, name: str) -> np.ndarray:
     return np.asarray(_read(table, name).factor * table[name].to_numpy(dtype=float))
 
 
+@documented(axes=8)
 def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     """Draw stability, compression, performance and score along one input (Figures 67-82).
 
@@ -152,12 +154,6 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
         combinations.
     x : str
         The input along the axes.
-    ax : array of eight matplotlib.axes.Axes, optional
-        New ones unless given.
-
-    Returns
-    -------
-    array of matplotlib.axes.Axes
     """
     shown = _shown(table, x)
     _check(table, [x, *shown])
@@ -174,6 +170,7 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     return axes
 
 
+@documented(axes=8)
 def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     """Draw a cloud of designs over a dimensionless group, coloured by score (Figures 117-124).
 
@@ -186,12 +183,6 @@ def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     x : str
         "stroke_to_bore", "dimensionless_pressure", "dimensionless_heat", "frequency_ratio", or any
         other column.
-    ax : array of eight matplotlib.axes.Axes, optional
-        New ones unless given.
-
-    Returns
-    -------
-    array of matplotlib.axes.Axes
     """
     shown = _shown(table, x)
     _check(table, [x, "score", *shown])
@@ -209,6 +200,7 @@ def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     return axes
 
 
+@documented()
 def design_map(
     table: pd.DataFrame, x: str, y: str, z: str, colour: str = "score", ax: Any = None
 ) -> Any:
@@ -224,7 +216,7 @@ def design_map(
     x, y, z, colour : str
         Columns.
     ax : mpl_toolkits.mplot3d.axes3d.Axes3D, optional
-        New ones unless given.
+        Three-dimensional axes to draw on; new ones unless given.
 
     Returns
     -------
@@ -249,18 +241,13 @@ def design_map(
     return ax
 
 
+@documented()
 def indices(found: Indices, ax: Axes | None = None) -> Axes:
     """Draw Sobol' indices as bars with their intervals, the most important input on top.
 
     Parameters
     ----------
     found : Indices
-    ax : matplotlib.axes.Axes, optional
-        New ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     table = found.table.sort_values("total")
     ax = axes_or_new(ax, height=1.2 + 0.42 * len(table))

@@ -19,6 +19,7 @@ from saleg.plotting.cycle import (
     last_cycle,
     time_axis,
 )
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
     FRICTION_COLOUR,
@@ -104,6 +105,7 @@ def power(cycle: Cycle, ax: Axes) -> Axes:
     return finish(ax, cycle.titled("Electrical power"), "below", columns=3)
 
 
+@documented()
 def efficiency(run: Run, ax: Axes | None = None, *, cycles: int = 10) -> Axes:
     """Draw the running efficiency [%] over time [ms] (Figure 40 of the thesis).
 
@@ -116,15 +118,8 @@ def efficiency(run: Run, ax: Axes | None = None, *, cycles: int = 10) -> Axes:
 
     Parameters
     ----------
-    run : Run
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
     cycles : int
         Cycles counted, the drawn one among them; fewer where the run has fewer.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
 
     Raises
     ------

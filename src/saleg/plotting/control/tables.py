@@ -9,6 +9,7 @@ import numpy as np
 
 from saleg.control.maps import OperatingMap
 from saleg.control.moments import stretches
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import (
     LEFT_COLOUR,
     RIGHT_COLOUR,
@@ -35,6 +36,7 @@ PORTS = {
 }
 
 
+@documented(axes=2)
 def motored_amplitudes(
     table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None
 ) -> np.ndarray:
@@ -46,16 +48,11 @@ def motored_amplitudes(
     ----------
     table : DataFrame
         From :func:`saleg.control.motored`.
-    ax : array of two matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (2,)
     """
     return _motored(table, "motor_amplitude", "motor_frequency", ax)
 
 
+@documented(axes=2)
 def motored_resonance(
     table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None
 ) -> np.ndarray:
@@ -67,28 +64,17 @@ def motored_resonance(
     ----------
     table : DataFrame
         From :func:`saleg.control.motored`.
-    ax : array of two matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (2,)
     """
     return _motored(table, "motor_frequency", "motor_amplitude", ax)
 
 
+@documented(axes=2)
 def operating_map(known: OperatingMap, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw power [kW] and compression ratio [-] of steady states over a quantity (Fig. 101, 104).
 
     Parameters
     ----------
     known : OperatingMap
-    ax : array of two matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (2,)
     """
     panels = panels_or_new(ax, (2, 1), 6.4, 5.4, sharex=True)
     table, path = known.table, known.path
@@ -105,6 +91,7 @@ def operating_map(known: OperatingMap, ax: Sequence[Axes] | np.ndarray | None = 
     return panels
 
 
+@documented(axes=2)
 def operating_grid(
     table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None
 ) -> np.ndarray:
@@ -116,12 +103,6 @@ def operating_grid(
     ----------
     table : DataFrame
         From :func:`saleg.control.operating_grid`.
-    ax : array of two matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (2,)
     """
     panels = panels_or_new(ax, (1, 2), 10.0, 4.4, sharey=True)
     x, y = "intake.temperature", "equivalence_ratio"
@@ -142,6 +123,7 @@ def operating_grid(
     return panels
 
 
+@documented()
 def survival(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
     """Draw the time to recover [s] over the strokes without fuel, with the motor and without it.
 
@@ -151,12 +133,6 @@ def survival(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
     ----------
     table : DataFrame
         From :func:`saleg.control.misfires`.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     ax = axes_or_new(ax)
     cases = {

@@ -17,6 +17,7 @@ from saleg.plotting.control.curves import (
     draw_peaks,
     finished,
 )
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import (
     RIGHT_COLOUR,
     TRANSLATOR_COLOUR,
@@ -36,26 +37,12 @@ if TYPE_CHECKING:
 CONSTANT = 1e-3
 
 
+@documented(axes=6)
 def start_up(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw commands, and what the cylinders answer, during a start-up (Figure 97).
 
     Motor frequency [Hz], load weight [-] and equivalence ratio [-]; peak pressures [bar], peak
     temperatures [K] and compression ratio [-], over time [s].
-
-    Parameters
-    ----------
-    run : Run
-    ax : array of six matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (6,)
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
     check(run)
     panels = panels_or_new(ax, (3, 2), 10.0, 6.0, sharex=True)
@@ -67,24 +54,9 @@ def start_up(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
     return finished(panels, run, "Start-up", columns=2)
 
 
+@documented(axes=2)
 def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
-    """Draw how compression ratio [-] and stroke [mm] grow until the engine is fired (Figure 98).
-
-    Parameters
-    ----------
-    run : Run
-    ax : array of two matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (2,)
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
-    """
+    """Draw how compression ratio [-] and stroke [mm] grow until the engine is fired (Figure 98)."""
     check(run)
     panels = panels_or_new(ax, (2, 1), 6.8, 5.2, sharex=True)
     at = fired_at(run)
@@ -95,6 +67,7 @@ def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
     return finished(panels, run, "Start-up")
 
 
+@documented()
 def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
     """Draw the compression ratio [-] over time [s] for several base frequencies (Figure 99).
 
@@ -102,12 +75,6 @@ def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
     ----------
     runs : mapping of float to Run
         Runs by the base frequency of the motor [Hz].
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
 
     Raises
     ------
@@ -137,6 +104,7 @@ def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
     return finish(ax, "Start-ups from several base frequencies", None)
 
 
+@documented(axes=5)
 def demand(run: Run, wanted: Demand, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw how an engine follows a demand (Figures 100, 102, 103).
 
@@ -146,19 +114,9 @@ def demand(run: Run, wanted: Demand, ax: Sequence[Axes] | np.ndarray | None = No
 
     Parameters
     ----------
-    run : Run
     wanted : Demand
     ax : array of five matplotlib.axes.Axes, optional
         Power, load weight, then those on the right; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (5,)
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
     check(run)
     panels = _demand_panels() if ax is None else panels_or_new(ax, (5, 1), 0.0, 0.0)
@@ -172,6 +130,7 @@ def demand(run: Run, wanted: Demand, ax: Sequence[Axes] | np.ndarray | None = No
     return finished(panels, run, "Demand for power", legend_on=panels[0])
 
 
+@documented(axes=4)
 def duty_cycle(
     run: Run,
     ax: Sequence[Axes] | np.ndarray | None = None,
@@ -186,7 +145,6 @@ def duty_cycle(
 
     Parameters
     ----------
-    run : Run
     ax : array of four or six matplotlib.axes.Axes, optional
         Axes to draw on; new ones unless given.
     gas : bool
@@ -198,11 +156,6 @@ def duty_cycle(
     Returns
     -------
     ndarray of matplotlib.axes.Axes, shape (4,) or (6,)
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
     check(run)
     rows = 3 if gas else 2
@@ -222,26 +175,12 @@ def duty_cycle(
     return panels
 
 
+@documented(axes=8)
 def controlled(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw what a run did over time [s], on the left, and what was commanded, on the right.
 
     Compression ratio [-], stroke [mm], frequency [Hz] and power [kW]; motor frequency [Hz], load
     weight [-], equivalence ratio [-] and intake temperature [K].
-
-    Parameters
-    ----------
-    run : Run
-    ax : array of eight matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    ndarray of matplotlib.axes.Axes, shape (8,)
-
-    Raises
-    ------
-    NoCycle
-        If the run completed no full cycle.
     """
     check(run)
     panels = panels_or_new(ax, (4, 2), 10.0, 7.8, sharex=True)

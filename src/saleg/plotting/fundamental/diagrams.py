@@ -10,6 +10,7 @@ import numpy as np
 from saleg.fundamental.energy import EnergyBalance
 from saleg.fundamental.history import History
 from saleg.fundamental.loads import Profile
+from saleg.plotting.docstrings import documented
 from saleg.plotting.fundamental.portraits import POSITION, TOGETHER
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
@@ -28,6 +29,7 @@ SHARES = {
 }
 
 
+@documented()
 def load_profiles(profiles: Mapping[str, Profile], start: float, ax: Axes | None = None) -> Axes:
     """Draw work forces over position, between mirrored dead centres (Figure 14).
 
@@ -37,12 +39,6 @@ def load_profiles(profiles: Mapping[str, Profile], start: float, ax: Axes | None
         By the name in the legend.
     start : float
         Left dead centre x_l* [-].
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     ax = axes_or_new(ax)
     s = np.linspace(start, -start, 201)
@@ -56,6 +52,7 @@ def load_profiles(profiles: Mapping[str, Profile], start: float, ax: Axes | None
     return finish(ax, "Work force: equal areas, equal work", "upper right")
 
 
+@documented()
 def pressure_loops(histories: Mapping[str, History], ax: Axes | None = None) -> Axes:
     """Draw the pressure in the left chamber over its volume, and the loops' inversion (Figure 17).
 
@@ -64,12 +61,6 @@ def pressure_loops(histories: Mapping[str, History], ax: Axes | None = None) -> 
     histories : mapping of str to History
         By the name in the legend; the left chamber is compressed in a stroke and expands in the
         next one, the last in the history that goes to the right. Three strokes will do.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     ax = axes_or_new(ax, 6.4, 5.0)
     inset = ax.inset_axes((0.4, 0.36, 0.58, 0.58))
@@ -88,6 +79,7 @@ def pressure_loops(histories: Mapping[str, History], ax: Axes | None = None) -> 
     return finish(ax, "Pressure and volume", "below", columns=2)
 
 
+@documented()
 def energy_pie(balance: EnergyBalance, ax: Axes | None = None) -> Axes:
     """Draw where the heat of a cycle goes [%] (Figure 19).
 
@@ -95,12 +87,6 @@ def energy_pie(balance: EnergyBalance, ax: Axes | None = None) -> Axes:
     ----------
     balance : EnergyBalance
         At equilibrium, so that nothing is stored.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     ax = axes_or_new(ax, 5.6, 4.4)
     terms = {

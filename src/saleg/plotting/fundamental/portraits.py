@@ -9,6 +9,7 @@ import numpy as np
 
 from saleg.fundamental.history import History
 from saleg.fundamental.stroke import Stroke
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import (
     LEFT_COLOUR,
     RIGHT_COLOUR,
@@ -41,39 +42,31 @@ TOGETHER: tuple[dict[str, Any], ...] = (
 )
 
 
+@documented()
 def phase_portrait(history: History, ax: Axes | None = None, title: str = "") -> Axes:
     """Draw velocity over position, stroke by stroke from light to dark.
 
     Parameters
     ----------
-    history : History
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
     title : str
         Title; what became of the engine unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     return _portrait(history, VELOCITY, ax, title)
 
 
+@documented()
 def acceleration_portrait(history: History, ax: Axes | None = None, title: str = "") -> Axes:
     """Draw acceleration over position, stroke by stroke from light to dark.
 
     Parameters
     ----------
-    history, ax, title
-        As for :func:`phase_portrait`.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
+    title : str
+        Title; what became of the engine unless given.
     """
     return _portrait(history, ACCELERATION, ax, title)
 
 
+@documented()
 def compare_velocities(
     histories: Mapping[str, History], ax: Axes | None = None, title: str = ""
 ) -> Axes:
@@ -81,19 +74,12 @@ def compare_velocities(
 
     Parameters
     ----------
-    histories : mapping of str to History
-        By the name in the legend.
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
     title : str
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     return _compare(histories, VELOCITY, ax, title)
 
 
+@documented()
 def compare_accelerations(
     histories: Mapping[str, History], ax: Axes | None = None, title: str = ""
 ) -> Axes:
@@ -101,28 +87,19 @@ def compare_accelerations(
 
     Parameters
     ----------
-    histories, ax, title
-        As for :func:`compare_velocities`.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
+    title : str
     """
     return _compare(histories, ACCELERATION, ax, title)
 
 
+@documented()
 def compression_ratios(history: History, ax: Axes | None = None, title: str = "") -> Axes:
     """Draw the compression ratio of every stroke.
 
     Parameters
     ----------
-    history, ax
-        As for :func:`phase_portrait`.
     title : str
-
-    Returns
-    -------
-    matplotlib.axes.Axes
+        Title; what became of the engine unless given.
     """
     ax = axes_or_new(ax)
     ratios = history.compression_ratios

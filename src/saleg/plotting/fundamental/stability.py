@@ -10,6 +10,7 @@ from saleg.fundamental.band import equilibrium_branch, tolerance_band
 from saleg.fundamental.equilibrium import equilibria
 from saleg.fundamental.history import History, return_map
 from saleg.fundamental.system import System
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
     LEFT_COLOUR,
@@ -23,19 +24,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+@documented()
 def cobweb(history: History, ax: Axes | None = None) -> Axes:
-    """Draw the next dead centre over the last one, with the way an engine takes.
-
-    Parameters
-    ----------
-    history : History
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-    """
+    """Draw the next dead centre over the last one, with the way an engine takes."""
     ax = axes_or_new(ax, 5.4, 5.0)
     system = cast(System, history.strokes[0].system)
     centres = np.abs(history.dead_centres)
@@ -57,6 +48,7 @@ def cobweb(history: History, ax: Axes | None = None) -> Axes:
     return finish(ax, f"From stroke to stroke: {history.outcome}", "upper left")
 
 
+@documented()
 def tolerance(gamma: float = 1.4, ax: Axes | None = None) -> Axes:
     """Draw the work force an equilibrium asks for, the fold, and the tolerance band (Eq. 32).
 
@@ -64,12 +56,6 @@ def tolerance(gamma: float = 1.4, ax: Axes | None = None) -> Axes:
     ----------
     gamma : float
         Ratio of specific heats [-].
-    ax : matplotlib.axes.Axes, optional
-        Axes to draw on; new ones unless given.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
     """
     ax = axes_or_new(ax)
     band = tolerance_band(gamma)
