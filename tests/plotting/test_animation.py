@@ -9,7 +9,7 @@ import saleg
 from saleg import BounceChamber
 from saleg.errors import RunFileError
 from saleg.plotting import AnimationError, NoCycle, animate
-from saleg.plotting.animation import _Film, dimensions
+from saleg.plotting.film import Film, dimensions
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +37,7 @@ def test_a_page_loads_nothing(base_run, tmp_path):
 
 
 def test_the_translator_moves_as_the_cycle_does(base_run):
-    film = _Film.of(base_run, None, 8, 20.0, 9.0)
+    film = Film.of(base_run, None, 8, 20.0, 9.0)
     orbit = base_run.orbit.history
     period = orbit["t"].iloc[-1] - orbit["t"].iloc[0]
     np.testing.assert_allclose(np.diff(film.history["t"]), period / 8)
@@ -54,7 +54,7 @@ def test_the_translator_moves_as_the_cycle_does(base_run):
 
 
 def test_a_window_of_a_history(recorded):
-    film = _Film.of(recorded, (0.02, 0.05), 5, 20.0, 9.0)
+    film = Film.of(recorded, (0.02, 0.05), 5, 20.0, 9.0)
     np.testing.assert_allclose(film.history["t"], np.linspace(0.02, 0.05, 5), atol=1e-4)
 
 

@@ -19,10 +19,11 @@ Examples
 """
 
 from saleg.plotting import control, sensitivity, studies
-from saleg.plotting.animation import AnimationError, animate
+from saleg.plotting.animation import animate
 from saleg.plotting.control import controlled
 from saleg.plotting.cycle import NoCycle
 from saleg.plotting.energy import energy_pie
+from saleg.plotting.film import AnimationError
 from saleg.plotting.gas import (
     heat_flow_time,
     pressure_position,

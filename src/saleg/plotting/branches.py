@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saleg.plotting.docstrings import documented
+from saleg.plotting.labels import label, values
 from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new, finish
-from saleg.simulation.performance import UNITS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from saleg.steady.continuation import Branch
 
 UNSTABLE_COLOUR = "#CC3311"
-#: Factor from SI and unit people read, by SI unit.
-READ = {"m": (1e3, "mm"), "W": (1e-3, "kW"), "Pa": (1e-5, "bar")}
 
 
 @documented()
@@ -33,8 +31,7 @@ def bifurcation(branch: Branch, figure: str = "stroke", ax: Axes | None = None) 
     """
     ax = axes_or_new(ax)
     table = branch.table
-    factor, unit = READ.get(UNITS[figure], (1.0, UNITS[figure]))
-    x, y = table[branch.path].to_numpy(), factor * table[figure].to_numpy()
+    x, y = table[branch.path].to_numpy(), values(table, figure)
     stable = table["stable"].to_numpy()
     for begin, end in _pieces(stable):
         steady = bool(stable[min(begin + 1, len(stable) - 1)])
@@ -51,7 +48,7 @@ def bifurcation(branch: Branch, figure: str = "stroke", ax: Axes | None = None) 
         at = _at(branch, value, x, y)
         ax.plot([value], [at], "o", color="black", label=f"{kind} at {value:.4g}")
     ax.set_xlabel(f"{branch.path} [{branch.unit}]")
-    ax.set_ylabel(f"{figure.replace('_', ' ')} [{unit}]")
+    ax.set_ylabel(label(table, figure))
     return finish(ax, f"{branch.engine.name}: steady states", "best")
 
 

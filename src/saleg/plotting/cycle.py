@@ -10,6 +10,7 @@ import numpy as np
 
 from saleg.errors import SalegError
 from saleg.plotting.docstrings import documented
+from saleg.plotting.labels import axis_label
 from saleg.plotting.style import (
     APART,
     COLOURS,
@@ -20,6 +21,8 @@ from saleg.plotting.style import (
     axes_or_new,
     marker,
 )
+from saleg.simulation.readable import readable
+from saleg.simulation.tables import HISTORY_UNITS
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,14 +47,22 @@ class Quantity(NamedTuple):
     sided: bool = False
 
 
-TIME = Quantity("time in the cycle [ms]", "t", 1e3)
-POSITION = Quantity("position [mm]", "x", 1e3)
-VELOCITY = Quantity("velocity [m/s]", "v", 1.0)
-ACCELERATION = Quantity("acceleration [km/s$^2$]", "a", 1e-3)
-VOLUME = Quantity("volume [cm$^3$]", "V", 1e6, sided=True)
-PRESSURE = Quantity("pressure [bar]", "p", 1e-5, sided=True)
-MOTORED = Quantity("motored pressure [bar]", "p_motored", 1e-5, sided=True)
-HEAT_FLOW = Quantity("heat flow to the walls [kW]", "heat_loss", 1e-3, sided=True)
+def of_history(name: str, *, sided: bool = False) -> Quantity:
+    """A column of the history in its readable unit."""
+    shown = readable(name, HISTORY_UNITS[name])
+    return Quantity(axis_label(shown), name, shown.factor, sided)
+
+
+#: Unlike the time of a run, that in a cycle is read in milliseconds.
+TIME = Quantity(axis_label(readable("", "s", "time in the cycle")), "t", readable("", "s").factor)
+POSITION = of_history("x")
+VELOCITY = of_history("v")
+ACCELERATION = of_history("a")
+VOLUME = of_history("V", sided=True)
+PRESSURE = of_history("p", sided=True)
+MOTORED = of_history("p_motored", sided=True)
+HEAT_FLOW = of_history("heat_loss", sided=True)
+POWER = of_history("electrical_power")
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ import numpy as np
 from saleg.design import formulas
 from saleg.design.geometry import Geometry
 from saleg.plotting.docstrings import documented
+from saleg.plotting.labels import axis_label
 from saleg.plotting.machine import WALL, housing, mover, piston, springs
 from saleg.plotting.style import (
     LEFT_COLOUR,
@@ -19,13 +20,18 @@ from saleg.plotting.style import (
     axes_or_new,
     finish,
     from_zero,
+    panels_or_new,
 )
+from saleg.simulation.readable import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 #: Most of a drawing's size, and the least width its title needs [inch].
 WIDEST, HIGHEST, NARROWEST = 10.6, 6.4, 4.5
+STROKE, BORE = readable("stroke", "m"), readable("bore", "m")
+STIFFNESS = readable("stiffness", "N/m", "spring stiffness")
+POWER = readable("power", "W")
 
 
 @documented()
@@ -104,7 +110,8 @@ def _label(ax: Axes, x: float, y: float, text: str) -> None:
 
 @documented()
 def alternator_map(
-    powers: Sequence[float] = (1e3, 10e3, 100e3), ax: Axes | None = None
+    powers: Sequence[float] = (1e3, 10e3, 100e3),
+    ax: Sequence[Axes] | np.ndarray | None = None,
 ) -> np.ndarray:
     """Draw the alternator diameter [m] over stroke [mm] and frequency [Hz] (Figure 63, Eq. 60).
 
@@ -123,29 +130,24 @@ def alternator_map(
     """
     from matplotlib.colors import LogNorm
 
-    from saleg.plotting.style import new_figure
-
-    if ax is None:
-        figure = new_figure(4.0 * len(powers) + 0.6, 3.9)
-        ax = figure.subplots(1, len(powers), sharey=True, squeeze=False)[0]
-    panels = np.atleast_1d(ax)  # type: ignore[arg-type]
+    panels = panels_or_new(ax, (1, len(powers)), 4.0 * len(powers) + 0.6, 3.9, sharey=True)
     stroke, frequency = np.meshgrid(np.geomspace(0.02, 0.3, 80), np.linspace(10.0, 100.0, 80))
     norm, levels = LogNorm(1e-3, 20.0), np.geomspace(1e-3, 20.0, 44)
     for panel, power in zip(panels, powers, strict=True):
         speed = formulas.mean_speed(stroke, frequency)  # type: ignore[arg-type]
         diameter = formulas.alternator_diameter(power, stroke, speed)  # type: ignore[arg-type]
-        filled = panel.contourf(1e3 * stroke, frequency, diameter, levels, norm=norm, extend="both")
+        plane = STROKE.of(stroke), frequency
+        filled = panel.contourf(*plane, diameter, levels, norm=norm, extend="both")
         lines = panel.contour(
-            1e3 * stroke,
-            frequency,
+            *plane,
             diameter,
             [0.01, 0.1, 1.0, 10.0],
             colors="white",
             linewidths=1.0,
         )
         panel.clabel(lines, fmt="%g m", fontsize="small")
-        panel.set_xlabel("stroke [mm]")
-        finish(panel, f"{power / 1e3:g} kW", None)
+        panel.set_xlabel(axis_label(STROKE))
+        finish(panel, f"{POWER.of(power):g} {POWER.unit}", None)
     panels[0].set_ylabel("frequency [Hz]")
     bar = panels[0].figure.colorbar(filled, ax=list(panels), ticks=[1e-3, 0.01, 0.1, 1.0, 10.0])
     bar.set_label("outer diameter of the mover [m]")
@@ -158,8 +160,8 @@ def piston_mass(ax: Axes | None = None) -> Axes:
     """Draw the mass of both piston heads [kg] over bore [mm] (Figure 65, Eq. 65)."""
     ax = axes_or_new(ax)
     bore = np.linspace(0.01, 0.1, 91)
-    ax.plot(1e3 * bore, [formulas.piston_mass(b) for b in bore], color=TRANSLATOR_COLOUR)
-    ax.set_xlabel("bore [mm]")
+    ax.plot(BORE.of(bore), [formulas.piston_mass(b) for b in bore], color=TRANSLATOR_COLOUR)
+    ax.set_xlabel(axis_label(BORE))
     ax.set_ylabel("mass of both piston heads [kg]")
     from_zero(ax)
     return finish(ax, "Piston heads (Eq. 65)", None)
@@ -186,8 +188,8 @@ def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> Axes:
     }
     for label, (mass, colour) in cases.items():
         frequency = np.sqrt(2.0 * stiffness / mass) / (2.0 * math.pi)
-        ax.plot(1e-3 * stiffness, frequency, color=colour, label=label)
-    ax.set_xlabel("spring stiffness [kN/m]")
+        ax.plot(STIFFNESS.of(stiffness), frequency, color=colour, label=label)
+    ax.set_xlabel(axis_label(STIFFNESS))
     ax.set_ylabel("natural frequency [Hz]")
     from_zero(ax)
     return finish(ax, f"Springs and {rest:g} kg", "upper left")

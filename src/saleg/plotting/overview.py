@@ -9,6 +9,7 @@ import numpy as np
 from saleg.plotting.cycle import NoCycle, last_cycle, titled
 from saleg.plotting.docstrings import documented
 from saleg.plotting.gas import pressure_position
+from saleg.plotting.labels import label, values
 from saleg.plotting.style import (
     COINCIDING,
     COLOURS,
@@ -56,23 +57,23 @@ def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = 
     time = (cycles["t"] + cycles["period"]).to_numpy()
     grey, points = TRANSLATOR_COLOUR, {"marker": ".", "markersize": 4.0}
     stroke, centres, ratio, power = panels
-    stroke.plot(time, 1e3 * cycles["stroke"].to_numpy(), color=grey, **points)
-    for side, sign in (("left", -1e3), ("right", 1e3)):
+    stroke.plot(time, values(cycles, "stroke"), color=grey, **points)
+    for side, sign in (("left", -1.0), ("right", 1.0)):
         look = {**points, "linestyle": COINCIDING[side].line, "linewidth": COINCIDING[side].width}
-        place = sign * cycles[f"x_{side}"].to_numpy()
+        place = sign * values(cycles, f"x_{side}")
         centres.plot(time, place, color=COLOURS[side], label=side, **look)
     ratio.plot(time, cycles["compression_ratio"].to_numpy(), color=grey, **points)
-    power.plot(time, 1e-3 * cycles["power"].to_numpy(), color=grey, **points)
-    for panel, label in (
-        (stroke, "stroke [mm]"),
-        (centres, "dead centres, |x| [mm]"),
-        (ratio, "compression ratio [-]"),
-        (power, "mean power [kW]"),
+    power.plot(time, values(cycles, "power"), color=grey, **points)
+    for panel, name, words in (
+        (stroke, "stroke", ""),
+        (centres, "x_right", "dead centres, |x|"),
+        (ratio, "compression_ratio", ""),
+        (power, "power", "mean power"),
     ):
         start = float(cycles["t"].iloc[0])
         panel.set_xlim(start, time[-1] + 0.02 * (time[-1] - start))
-        panel.set_xlabel("time [s]")
-        panel.set_ylabel(label)
+        panel.set_xlabel(label(cycles, "t"))
+        panel.set_ylabel(label(cycles, name, words))
         _readable(panel)
         finish(panel, "", "best" if panel is centres else None)
     stroke.set_title(titled(run, "Approach to steady state"), fontsize="medium")

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.plotting.docstrings import documented
+from saleg.plotting.labels import axis_label
 from saleg.plotting.style import axes_or_new, finish
+from saleg.simulation.readable import readable
 from saleg.studies.printed import is_of_base_case
 
 if TYPE_CHECKING:
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARKERS = "osD^vPX*"
+STEP = readable("step", "s", "fixed step")
+EFFICIENCY = readable("efficiency", "-")
 
 
 @documented()
@@ -66,11 +70,11 @@ def delay(
     ):
         label = {"0": "no delay", "1": "1 step late"}.get(f"{steps:g}", f"{steps:g} steps late")
         look: dict[str, Any] = {"color": tuple(colour), "marker": marker, "ms": 4, "lw": 1.2}
-        ax.plot(1e6 * rows["step"], 100.0 * rows["efficiency"], label=label, **look)
+        ax.plot(STEP.of(rows["step"]), EFFICIENCY.of(rows["efficiency"]), label=label, **look)
     if printed is not None and is_of_base_case(table):
         _draw_printed(ax, printed, float(ran["step"].max()))
-    ax.set_xlabel("fixed step [µs]")
-    ax.set_ylabel("efficiency [%]")
+    ax.set_xlabel(axis_label(STEP))
+    ax.set_ylabel(axis_label(EFFICIENCY))
     return finish(ax, "Cylinder blocks that lag behind", "best")
 
 
@@ -78,8 +82,8 @@ def _draw_printed(ax: Axes, rows: Mapping[float, Mapping[str, float]], longest: 
     """Rings where the thesis has steps no longer than the longest that ran [s]."""
     printed = [(step, row) for step, row in rows.items() if step <= longest * 1.001]
     ax.plot(
-        [1e6 * step for step, _ in printed],
-        [100.0 * row["efficiency"] for _, row in printed],
+        [STEP.of(step) for step, _ in printed],
+        [EFFICIENCY.of(row["efficiency"]) for _, row in printed],
         "o",
         mfc="none",
         mec="#D55E00",

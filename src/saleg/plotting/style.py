@@ -84,15 +84,42 @@ def panels_or_new(
     shape: tuple[int, int],
     width: float,
     height: float,
+    count: int | None = None,
     **settings: Any,
 ) -> np.ndarray:
-    """The axes handed in, or new ones in rows and columns, as a flat array."""
+    """The axes handed in, or new ones in rows and columns, as a flat array.
+
+    Parameters
+    ----------
+    ax : array of matplotlib.axes.Axes, optional
+        Axes handed in.
+    shape : (int, int)
+        Rows and columns.
+    width, height : float
+        Size of a new figure [inch].
+    count : int, optional
+        Number of axes; all of the grid unless given.
+    **settings
+        Further settings of ``Figure.subplots``.
+
+    Returns
+    -------
+    ndarray of matplotlib.axes.Axes
+
+    Raises
+    ------
+    ValueError
+        If there are not as many axes as the figure needs.
+    """
+    needed = shape[0] * shape[1] if count is None else count
     if ax is None:
-        made = new_figure(width, height).subplots(*shape, squeeze=False, **settings)
-        return np.asarray(made).ravel()
+        made = new_figure(width, height).subplots(*shape, squeeze=False, **settings).ravel()
+        for spare in made[needed:]:
+            spare.remove()
+        return np.asarray(made[:needed])
     panels = np.asarray(ax, dtype=object).ravel()
-    if len(panels) != shape[0] * shape[1]:
-        raise ValueError(f"this figure needs {shape[0] * shape[1]} axes, not {len(panels)}")
+    if len(panels) != needed:
+        raise ValueError(f"this figure needs {needed} axes, not {len(panels)}")
     return panels
 
 

@@ -7,20 +7,23 @@ invalid points as ticks on the axis, whatever figures they have.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from saleg.errors import SweepError
 from saleg.plotting.docstrings import documented
+from saleg.plotting.kinds import UNSTABLE, draw_kind, kinds
+from saleg.plotting.labels import label, values
 from saleg.plotting.style import (
     LEFT_COLOUR,
-    RIGHT_COLOUR,
     axes_or_new,
     finish,
     legend_below,
     new_figure,
+    panels_or_new,
 )
+from saleg.simulation.readable import readable
 from saleg.status import Status
 
 if TYPE_CHECKING:
@@ -47,101 +50,6 @@ INSTEAD = ("moving_mass", "power", "peak_velocity")
 #: Ratio of the greatest to the least value beyond which an axis is logarithmic.
 WIDE = 40.0
 
-#: Names of columns as people read them; others are their own.
-WORDS = {
-    "largest_multiplier": "largest multiplier",
-    "relative_stroke": "stroke over maximum stroke",
-    "stroke_to_bore": "maximum stroke over bore",
-    "dimensionless_pressure": r"$\pi b^2 p_{in} / (4 L k)$",
-    "dimensionless_heat": r"$Q_{in} / (k L^2)$",
-    "frequency_ratio": r"$f_{ss} / \sqrt{k/m}$",
-    "egr": "EGR",
-    "intake.temperature": "intake temperature",
-}
-
-
-class Read(NamedTuple):
-    """Unit people read and the factor that leads there."""
-
-    factor: float
-    unit: str
-
-
-#: By SI unit, and by column where that decides.
-UNITS = {
-    "m": Read(1e3, "mm"),
-    "Pa": Read(1e-5, "bar"),
-    "W": Read(1e-3, "kW"),
-    "W/kg": Read(1e-3, "kW/kg"),
-    "N/m": Read(1e-3, "kN/m"),
-    "m^3": Read(1e6, "cm³"),
-}
-SHARES = ("efficiency", "egr", "port_location", "relative_stroke")
-
-
-class Kind(NamedTuple):
-    """How points of one kind are drawn."""
-
-    label: str
-    look: dict[str, Any]
-
-
-STABLE = Kind("stable", {"color": LEFT_COLOUR, "marker": ".", "markersize": 4, "linewidth": 1.4})
-#: The same where multipliers were not asked for.
-ORBIT = STABLE._replace(label="orbit, stability not examined")
-UNSTABLE = Kind(
-    "unstable orbit",
-    {
-        "color": RIGHT_COLOUR,
-        "marker": "o",
-        "markerfacecolor": "white",
-        "markersize": 4.5,
-        "linewidth": 1.0,
-        "linestyle": "--",
-    },
-)
-UNSTEADY = Kind(
-    "no orbit found, last simulated cycle",
-    {"color": "0.45", "marker": "x", "markersize": 4.5, "linestyle": "none"},
-)
-NO_FIGURES = Kind(
-    "stalled, idling or invalid",
-    {"color": "#CC3311", "marker": "|", "markersize": 9, "linestyle": "none"},
-)
-
-
-def kinds(table: pd.DataFrame) -> list[tuple[Kind, np.ndarray]]:
-    """Kinds of points with the rows of each."""
-    status = table["status"].to_numpy()
-    steady = status == str(Status.STEADY)
-    stable = table["stable"].to_numpy(dtype=bool) if "stable" in table else steady
-    unsteady = status == str(Status.UNSTEADY)
-    return [
-        (STABLE if "stable" in table else ORBIT, steady & stable),
-        (UNSTABLE, steady & ~stable),
-        (UNSTEADY, unsteady),
-        (NO_FIGURES, ~steady & ~unsteady),
-    ]
-
-
-def label(table: pd.DataFrame, name: str) -> str:
-    """Name and unit of a column as people read them."""
-    return f"{_named(name)} [{_read(table, name).unit}]"
-
-
-def _named(name: str) -> str:
-    return WORDS.get(name, name.replace("_", " ").replace(".", ": "))
-
-
-def _read(table: pd.DataFrame, name: str) -> Read:
-    unit = table.attrs["units"][name]
-    return Read(100.0, "%") if name in SHARES else UNITS.get(unit, Read(1.0, unit))
-
-
-def values(table: pd.DataFrame, name: str) -> np.ndarray:
-    """A column in the unit people read."""
-    return np.asarray(_read(table, name).factor * table[name].to_numpy(dtype=float))
-
 
 @documented(axes=8)
 def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
@@ -157,7 +65,7 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     """
     shown = _shown(table, x)
     _check(table, [x, *shown])
-    axes = _eight(ax)
+    axes = panels_or_new(ax, (2, 4), 13.2, 6.2, sharex=True)
     lines = _lines(table, x)
     for panel, name in zip(axes, shown, strict=False):
         for line in lines:
@@ -186,7 +94,7 @@ def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
     """
     shown = _shown(table, x)
     _check(table, [x, "score", *shown])
-    axes = _eight(ax)
+    axes = panels_or_new(ax, (2, 4), 13.2, 6.2, sharex=True)
     kept = _orbits(table).sort_values("score")
     kept.attrs = table.attrs
     for panel, name in zip(axes, shown, strict=False):
@@ -259,7 +167,7 @@ def indices(found: Indices, ax: Axes | None = None) -> Axes:
         look: dict[str, Any] = {"height": 0.36, "color": colour, "label": named}
         error = {"elinewidth": 0.8, "capsize": 2, "ecolor": "0.25"}
         ax.barh(rows + shift, value, xerr=np.maximum(ends, 0.0), error_kw=error, **look)
-    ax.set_yticks(rows, [_named(str(name)) for name in table.index])
+    ax.set_yticks(rows, [readable(str(name), "").words for name in table.index])
     ax.set_xlabel("share of the variance [-]")
     ax.set_xlim(left=min(0.0, ax.get_xlim()[0]))
     return finish(ax, f"What decides about the {found.figure.replace('_', ' ')}", "lower right")
@@ -343,30 +251,6 @@ def _shown(table: pd.DataFrame, x: str) -> list[str]:
     if not wanted:
         raise SweepError("no point has figures: nothing to draw; the messages of the rows say why")
     return wanted[: len(PANELS)]
-
-
-def _eight(ax: Any) -> np.ndarray:
-    if ax is not None:
-        axes = np.ravel(ax)
-        if len(axes) != len(PANELS):
-            raise SweepError(f"{len(axes)} axes given: {len(PANELS)} are needed")
-        return axes
-    figure = new_figure(13.2, 6.2)
-    return np.ravel(figure.subplots(2, 4, sharex=True))
-
-
-def draw_kind(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind: Kind) -> None:
-    """Points of a kind, joined only where neighbours are of it; without figures, on the axis."""
-    if kind is NO_FIGURES:
-        panel.plot(
-            x[rows],
-            np.full(int(rows.sum()), 0.02),
-            transform=panel.get_xaxis_transform(),
-            label=kind.label,
-            **kind.look,
-        )
-        return
-    panel.plot(x, np.where(rows, y, np.nan), label=kind.label, **kind.look)
 
 
 def _hide(axes: np.ndarray) -> None:

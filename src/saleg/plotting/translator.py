@@ -10,6 +10,7 @@ import numpy as np
 from saleg.plotting.cycle import (
     ACCELERATION,
     POSITION,
+    POWER,
     TIME,
     VELOCITY,
     Cycle,
@@ -20,6 +21,7 @@ from saleg.plotting.cycle import (
     time_axis,
 )
 from saleg.plotting.docstrings import documented
+from saleg.plotting.labels import axis_label
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
     FRICTION_COLOUR,
@@ -32,11 +34,15 @@ from saleg.plotting.style import (
     from_zero,
     zero_lines,
 )
+from saleg.simulation.readable import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.simulation.run import Run
+
+FORCE = readable("spring_force", "N", "force to the right")
+EFFICIENCY = readable("efficiency", "-")
 
 
 @figure_of_cycle
@@ -79,9 +85,9 @@ def forces(cycle: Cycle, ax: Axes) -> Axes:
             (0, (5, 1.5)),
         ),
     ):
-        ax.plot(time, 1e-3 * force.to_numpy(), color=colour, linestyle=line, label=label)
+        ax.plot(time, FORCE.of(force.to_numpy()), color=colour, linestyle=line, label=label)
     time_axis(ax, cycle)
-    ax.set_ylabel("force to the right [kN]")
+    ax.set_ylabel(axis_label(FORCE))
     return finish(ax, cycle.titled("Forces on the translator"), "below", columns=3)
 
 
@@ -89,9 +95,9 @@ def forces(cycle: Cycle, ax: Axes) -> Axes:
 def power(cycle: Cycle, ax: Axes) -> Axes:
     """Draw electrical power [kW] over time [ms], its mean and RMS (Figure 40 of the thesis)."""
     strokes, period = cycle.strokes, cycle.period
-    mean = 1e-3 * float(strokes["electrical_energy"].sum()) / period
-    rms = 1e-3 * math.sqrt(float(strokes["electrical_squared"].sum()) / period)
-    instant = 1e-3 * cycle.history["electrical_power"].to_numpy()
+    mean = POWER.scale * float(strokes["electrical_energy"].sum()) / period
+    rms = POWER.scale * math.sqrt(float(strokes["electrical_squared"].sum()) / period)
+    instant = cycle(POWER)
     ax.plot(cycle(TIME), instant, color=ALTERNATOR_COLOUR, linewidth=1.6, label="electrical power")
     ax.axhline(mean, color=TRANSLATOR_COLOUR, linewidth=1.2, label=f"mean {mean:.4g} kW")
     ax.axhline(
@@ -101,7 +107,7 @@ def power(cycle: Cycle, ax: Axes) -> Axes:
         from_zero(ax)
     zero_lines(ax, y=True)
     time_axis(ax, cycle)
-    ax.set_ylabel("electrical power [kW]")
+    ax.set_ylabel(POWER.label)
     return finish(ax, cycle.titled("Electrical power"), "below", columns=3)
 
 
@@ -132,14 +138,14 @@ def efficiency(run: Run, ax: Axes | None = None, *, cycles: int = 10) -> Axes:
         raise NoCycle("no efficiency to draw: the last full cycle had no fresh fuel")
     ax = axes_or_new(ax)
     cycles = min(max(int(cycles), 1), len(run.cycles))
-    running = 100.0 * _running_efficiency(cycle, cycles)
-    mean = 100.0 * float(cycle.strokes["electrical_energy"].sum()) / spent
+    running = EFFICIENCY.of(_running_efficiency(cycle, cycles))
+    mean = EFFICIENCY.of(float(cycle.strokes["electrical_energy"].sum())) / spent
     label = f"running efficiency over {cycles} cycles" if cycles > 1 else "running efficiency"
     ax.plot(cycle(TIME), running, color=ALTERNATOR_COLOUR, linewidth=1.6, label=label)
     label = f"efficiency of the cycle {mean:.4g} %"
     ax.axhline(mean, color=TRANSLATOR_COLOUR, linewidth=1.2, label=label)
     time_axis(ax, cycle)
-    ax.set_ylabel("efficiency [%]")
+    ax.set_ylabel(axis_label(EFFICIENCY))
     return finish(ax, cycle.titled("Efficiency"), "below", columns=2)
 
 

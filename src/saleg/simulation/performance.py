@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,32 +20,30 @@ from saleg.simulation.indicators import (
 nan = math.nan
 
 
-#: Units of the figures of Performance.
-UNITS = {
-    "stroke": "m",
-    "compression_ratio": "-",
-    "frequency": "Hz",
-    "power": "W",
-    "rms_power": "W",
-    "efficiency": "-",
-    "mean_alternator_force": "N",
-    "peak_pressure": "Pa",
-    "peak_acceleration": "m/s^2",
-    "peak_velocity": "m/s",
-    "fuel_energy_per_cycle": "J",
-    "charge_mass": "kg",
-    "moving_mass": "kg",
-    "peak_temperature": "K",
-    "peak_pressure_rise": "Pa/s",
-    "indicated_work": "J",
-    "indicated_efficiency": "-",
-    "adverse_work": "J",
-    "start_of_combustion": "s",
-    "start_of_combustion_position": "m",
-    "burn_centre": "s",
-    "stability": "-",
-    "cr_change": "-",
-}
+class Figure(NamedTuple):
+    """What a field of :class:`Performance` is called in a report, and its unit.
+
+    Attributes
+    ----------
+    unit : str
+        SI unit.
+    label : str
+        Name in words.
+    digits : int or None
+        Digits after the point, in the readable unit; None for what a report leaves out.
+    note : str
+        What stands after the unit.
+    """
+
+    unit: str
+    label: str
+    digits: int | None = None
+    note: str = ""
+
+
+def figure(unit: str, label: str, digits: int | None = None, note: str = "") -> Any:
+    """Declare a field of :class:`Performance`; see :class:`Figure`."""
+    return field(metadata={"figure": Figure(unit, label, digits, note)})
 
 
 @dataclass(frozen=True)
@@ -104,29 +102,29 @@ class Performance:
         ten changes [-].
     """
 
-    stroke: float
-    compression_ratio: float
-    frequency: float
-    power: float
-    rms_power: float
-    efficiency: float
-    mean_alternator_force: float
-    peak_pressure: float
-    peak_acceleration: float
-    peak_velocity: float
-    fuel_energy_per_cycle: float
-    charge_mass: float
-    moving_mass: float
-    peak_temperature: float
-    peak_pressure_rise: float
-    indicated_work: float
-    indicated_efficiency: float
-    adverse_work: float
-    start_of_combustion: float
-    start_of_combustion_position: float
-    burn_centre: float
-    stability: float
-    cr_change: float
+    stroke: float = figure("m", "stroke", 2)
+    compression_ratio: float = figure("-", "compression ratio", 3)
+    frequency: float = figure("Hz", "frequency", 3)
+    power: float = figure("W", "mean electrical power", 3)
+    rms_power: float = figure("W", "RMS electrical power", 3)
+    efficiency: float = figure("-", "efficiency", 2)
+    mean_alternator_force: float = figure("N", "mean alternator force", 1)
+    peak_pressure: float = figure("Pa", "peak pressure", 2)
+    peak_acceleration: float = figure("m/s^2", "peak acceleration", 3)
+    peak_velocity: float = figure("m/s", "peak velocity", 3)
+    fuel_energy_per_cycle: float = figure("J", "fuel energy per cycle", 1)
+    charge_mass: float = figure("kg", "charge mass", 4)
+    moving_mass: float = figure("kg", "moving mass", 3)
+    peak_temperature: float = figure("K", "peak temperature", 1)
+    peak_pressure_rise: float = figure("Pa/s", "peak pressure rise", 2)
+    indicated_work: float = figure("J", "indicated work per cycle", 1)
+    indicated_efficiency: float = figure("-", "indicated efficiency", 2)
+    adverse_work: float = figure("J", "adverse work per cycle", 3)
+    start_of_combustion: float = figure("s", "start of combustion", 3, "before dead centre")
+    start_of_combustion_position: float = figure("m", "  at distance", 2)
+    burn_centre: float = figure("s", "burn centre", 3, "after dead centre")
+    stability: float = figure("-", "stability")
+    cr_change: float = figure("-", "change of the compression ratio")
 
     def to_dict(self) -> dict[str, float]:
         """All figures by name."""
@@ -195,6 +193,13 @@ class Performance:
             stability=stability,
             cr_change=cr_change,
         )
+
+
+#: Figures of a cycle by name, and their SI units.
+FIGURES: dict[str, Figure] = {
+    item.name: item.metadata["figure"] for item in dataclasses.fields(Performance)
+}
+UNITS = {name: figure.unit for name, figure in FIGURES.items()}
 
 
 @dataclass(frozen=True)

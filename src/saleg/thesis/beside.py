@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 from saleg import Engine, Run
 from saleg.machines import CATALOGUE
-from saleg.simulation.report import FIGURES
+from saleg.simulation.performance import FIGURES
+from saleg.simulation.readable import readable
 from saleg.thesis.tables import TABLE_2, TABLE_5, columns
 
 
@@ -29,7 +30,7 @@ def _results(number: int) -> dict[str, float]:
     """Results of Table 1 or 13 under the names of :class:`saleg.Performance`."""
     printed = columns(number)["value"]
     printed["charge_mass"] = printed.pop("mixture_mass")
-    names = [name for name, *_ in FIGURES if name != "moving_mass"]
+    names = [name for name in FIGURES if name != "moving_mass"]
     return {name: printed[name] for name in names if name in printed}
 
 
@@ -78,12 +79,13 @@ def comparison(run: Run) -> str | None:
     head = f"  {'':<24} {'saleg':>10} {'':<6}"
     head += "".join(f" {column.title:>16} {'':>8}" for column in beside)
     lines = [head.rstrip()]
-    for figure, label, factor, unit, digits in FIGURES:
+    for figure, (unit, label, digits, _) in FIGURES.items():
         if not any(figure in column.figures for column in beside):
             continue
-        value = getattr(run.performance, figure) * factor
-        text = f"  {label:<24} {value:>10.{digits}f} {'' if unit == '-' else unit:<6}"
-        text += "".join(_beside(column, figure, value, factor) for column in beside)
+        shown = readable(figure, unit)
+        value = shown.of(getattr(run.performance, figure))
+        text = f"  {label:<24} {value:>10.{digits}f} {'' if shown.unit == '-' else shown.unit:<6}"
+        text += "".join(_beside(column, figure, value, shown.factor) for column in beside)
         lines.append(text.rstrip())
     return "\n".join([*lines, "", REMARKS[name]])
 

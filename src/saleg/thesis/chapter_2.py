@@ -37,7 +37,7 @@ from saleg.fundamental import (
     march,
 )
 from saleg.plotting import fundamental as plots
-from saleg.plotting import new_figure
+from saleg.plotting.style import panels_or_new
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -162,7 +162,7 @@ def figure_14(ax: Axes | None = None) -> Axes:
 
 def figure_15(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw velocity and acceleration under either work force, on two axes."""
-    panels = _two(ax)
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.compare_velocities(both_loads(), panels[0], "Velocity")
     plots.compare_accelerations(both_loads(), panels[1], "Acceleration")
     return panels
@@ -185,7 +185,7 @@ def figure_18(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
 
 def figure_19(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     """Draw how the compression ratio settles, and where the heat goes, on two axes."""
-    panels = _two(ax)
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.compression_ratios(combined(), panels[0])
     plots.energy_pie(cycle_balance(combined()), panels[1])
     return panels
@@ -208,17 +208,7 @@ FIGURES: dict[int, Callable[..., Any]] = {
 
 
 def _motion(history: History, ax: Any) -> np.ndarray:
-    panels = _two(ax)
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.phase_portrait(history, panels[0])
     plots.acceleration_portrait(history, panels[1], "Acceleration")
-    return panels
-
-
-def _two(ax: Sequence[Axes] | np.ndarray | None) -> np.ndarray:
-    """The two axes handed in, or new ones."""
-    if ax is None:
-        return new_figure(10.0, 4.4).subplots(1, 2)
-    panels = np.asarray(ax, dtype=object).ravel()
-    if len(panels) != 2:
-        raise ValueError(f"this figure needs 2 axes, not {len(panels)}")
     return panels

@@ -9,6 +9,7 @@ import numpy as np
 
 from saleg.control.moments import first_misfire, fuel_cuts, late_ignitions, motored_times
 from saleg.plotting.cycle import NoCycle, titled
+from saleg.plotting.labels import TIME, label, values
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
     COINCIDING,
@@ -21,7 +22,6 @@ from saleg.plotting.style import (
     marker,
     zero_lines,
 )
-from saleg.plotting.sweeps import label, values
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -75,8 +75,7 @@ def draw_peaks(ax: Axes, run: Run, name: str, text: str) -> None:
         column, look = f"{name}_{side}", COINCIDING[side]
         line: dict[str, Any] = {"linestyle": look.line, "linewidth": look.width, "color": colour}
         ax.plot(time, values(cycles, column), label=side, **line)
-    unit = label(cycles, f"{name}_left").partition("[")[2]
-    ax.set_ylabel(f"{text} [{unit}")
+    ax.set_ylabel(label(cycles, f"{name}_left", text))
     both = [values(cycles, f"{name}_{side}") for side in COLOURS]
     _limit(ax, name, time, np.maximum(*both))
 
@@ -138,7 +137,7 @@ def finished(
         panel.yaxis.set_label_coords(-0.11 if columns == 2 else -0.1, 0.5)
         spec = panel.get_subplotspec()
         if spec is None or spec.is_last_row():
-            panel.set_xlabel("time [s]")
+            panel.set_xlabel(TIME)
     panels[0].set_title(titled(run, title), fontsize="medium")
     if legend_on is not None:
         legend_on.legend(fontsize="small", loc="lower right", edgecolor="none")

@@ -10,6 +10,8 @@ import numpy as np
 from saleg.control.maps import OperatingMap
 from saleg.control.moments import stretches
 from saleg.plotting.docstrings import documented
+from saleg.plotting.kinds import NO_FIGURES, STABLE, draw_kind, kinds
+from saleg.plotting.labels import label, values
 from saleg.plotting.style import (
     LEFT_COLOUR,
     RIGHT_COLOUR,
@@ -19,7 +21,6 @@ from saleg.plotting.style import (
     legend_below,
     panels_or_new,
 )
-from saleg.plotting.sweeps import NO_FIGURES, STABLE, draw_kind, kinds, label, values
 from saleg.status import Status
 
 if TYPE_CHECKING:
@@ -171,7 +172,8 @@ def _motored(
     ordered.attrs = table.attrs
     at = values(ordered, x)
     beats = ordered["status"].to_numpy() != str(Status.STEADY)
-    for panel, name in zip(panels, ("relative_stroke", "compression_ratio"), strict=True):
+    shown = {"relative_stroke": "relative stroke", "compression_ratio": "compression ratio"}
+    for panel, (name, words) in zip(panels, shown.items(), strict=True):
         look: dict[str, Any] = {"marker": ".", "markersize": 4, "linewidth": 1.4}
         heights = values(ordered, name)
         panel.plot(at, heights, color=TRANSLATOR_COLOUR, **look)
@@ -180,7 +182,7 @@ def _motored(
             panel.plot(at[beats], heights[beats], "o", markersize=4.5, label=UNSETTLED, **look)
         for column, (text, alpha) in PORTS.items():
             _shade(panel, at, ordered[column].to_numpy(dtype=bool), label=text, alpha=alpha)
-        panel.set_ylabel(label(ordered, name).replace("stroke over maximum", "relative"))
+        panel.set_ylabel(label(ordered, name, words))
         panel.margins(x=0.0)
         finish(panel, "", None)
     panels[0].set_ylim(0.0, 1.08 * panels[0].dataLim.ymax)

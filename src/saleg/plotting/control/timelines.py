@@ -18,6 +18,7 @@ from saleg.plotting.control.curves import (
     finished,
 )
 from saleg.plotting.docstrings import documented
+from saleg.plotting.labels import TIME
 from saleg.plotting.style import (
     RIGHT_COLOUR,
     TRANSLATOR_COLOUR,
@@ -27,6 +28,7 @@ from saleg.plotting.style import (
     new_figure,
     panels_or_new,
 )
+from saleg.simulation.readable import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -99,7 +101,7 @@ def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
         place: dict[str, Any] = {"xy": (1.0, 0.09 + 0.05 * row), "xycoords": "axes fraction"}
         ax.annotate(text, **place, ha="right", color=colour, fontsize="small")
     ax.set_xlim(0.0, max(run.duration for run in runs.values()))
-    ax.set_xlabel("time [s]")
+    ax.set_xlabel(TIME)
     ax.set_ylim(0.0, 1.15 * ax.dataLim.ymax)
     return finish(ax, "Start-ups from several base frequencies", None)
 
@@ -124,7 +126,9 @@ def demand(run: Run, wanted: Demand, ax: Sequence[Axes] | np.ndarray | None = No
     for panel, name in zip(panels, names, strict=True):
         draw(panel, run, name)
     times = [0.0, *wanted.times, max(run.duration, wanted.times[-1])]
-    powers = 1e-3 * np.array([wanted.powers[0], *wanted.powers, wanted.powers[-1]])
+    powers = readable("power", "W").of(
+        np.array([wanted.powers[0], *wanted.powers, wanted.powers[-1]])
+    )
     look: dict[str, Any] = {"color": TRANSLATOR_COLOUR, "linestyle": "--", "linewidth": 1.2}
     panels[0].plot(times, powers, label="demand", **look)
     return finished(panels, run, "Demand for power", legend_on=panels[0])

@@ -1,0 +1,73 @@
+"""Kinds of points in figures of tables: stable, unstable, unsteady, or without figures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from saleg.plotting.style import LEFT_COLOUR, RIGHT_COLOUR
+from saleg.status import Status
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+
+class Kind(NamedTuple):
+    """How points of one kind are drawn."""
+
+    label: str
+    look: dict[str, Any]
+
+
+STABLE = Kind("stable", {"color": LEFT_COLOUR, "marker": ".", "markersize": 4, "linewidth": 1.4})
+#: The same where multipliers were not asked for.
+ORBIT = STABLE._replace(label="orbit, stability not examined")
+UNSTABLE = Kind(
+    "unstable orbit",
+    {
+        "color": RIGHT_COLOUR,
+        "marker": "o",
+        "markerfacecolor": "white",
+        "markersize": 4.5,
+        "linewidth": 1.0,
+        "linestyle": "--",
+    },
+)
+UNSTEADY = Kind(
+    "no orbit found, last simulated cycle",
+    {"color": "0.45", "marker": "x", "markersize": 4.5, "linestyle": "none"},
+)
+NO_FIGURES = Kind(
+    "stalled, idling or invalid",
+    {"color": "#CC3311", "marker": "|", "markersize": 9, "linestyle": "none"},
+)
+
+
+def kinds(table: pd.DataFrame) -> list[tuple[Kind, np.ndarray]]:
+    """Kinds of points with the rows of each."""
+    status = table["status"].to_numpy()
+    steady = status == str(Status.STEADY)
+    stable = table["stable"].to_numpy(dtype=bool) if "stable" in table else steady
+    unsteady = status == str(Status.UNSTEADY)
+    return [
+        (STABLE if "stable" in table else ORBIT, steady & stable),
+        (UNSTABLE, steady & ~stable),
+        (UNSTEADY, unsteady),
+        (NO_FIGURES, ~steady & ~unsteady),
+    ]
+
+
+def draw_kind(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind: Kind) -> None:
+    """Points of a kind, joined only where neighbours are of it; without figures, on the axis."""
+    if kind is NO_FIGURES:
+        panel.plot(
+            x[rows],
+            np.full(int(rows.sum()), 0.02),
+            transform=panel.get_xaxis_transform(),
+            label=kind.label,
+            **kind.look,
+        )
+        return
+    panel.plot(x, np.where(rows, y, np.nan), label=kind.label, **kind.look)
