@@ -9,8 +9,9 @@ import numpy as np
 from saleg import BounceChamber, Engine, Translator, sweep
 from saleg.engine.start import CompressedCharge
 from saleg.laws import ConstantGamma, LinearLoad, LinearSprings, ViscousFriction
+from saleg.simulation.course import Course
 from saleg.simulation.initial_state import prepare
-from saleg.simulation.integration import Settings, integrate
+from saleg.simulation.settings import Detail, Settings
 
 #: The project, and the tables of the dissertation.
 ROOT = Path(__file__).resolve().parent.parent
@@ -46,8 +47,8 @@ def bounce_engine(
 def strokes_from_start(engine, count=2, **settings):
     """The first strokes of an engine and the state after them."""
     state = prepare(engine)
-    asked = Settings(duration=10.0, last_stroke=float(count), peaks=2, **settings)
-    return integrate(engine, state, asked), state
+    asked, detail = Settings(10.0, **settings), Detail(peaks=2, last_stroke=float(count))
+    return Course(engine, state, asked, detail=detail).finish(), state
 
 
 def cycle_figures(engine, **settings):

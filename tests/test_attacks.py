@@ -19,7 +19,7 @@ from saleg.engine.start import AtRest, MidpointVelocity
 from saleg.errors import StartError
 from saleg.laws import Friction, InstantExchange, LinearSprings, Springs
 from saleg.laws.base import ENGINE_SLOTS
-from saleg.simulation.integration import SettingsError
+from saleg.simulation.settings import SettingsError
 
 
 def module(name, text, **names):

@@ -10,7 +10,7 @@ import pytest
 import saleg
 from saleg import BounceChamber, Engine, InvalidEngine, Translator, UnknownPath
 from saleg.laws import FrictionShare, Hohenberg, LinearSprings, Wiebe
-from saleg.simulation.integration import SettingsError
+from saleg.simulation.settings import SettingsError
 
 CONTRACT_PATHS = {
     "bore": 0.064,

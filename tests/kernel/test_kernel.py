@@ -23,14 +23,14 @@ WINDOWS = {
 
 @pytest.fixture(scope="module")
 def converged(base):
-    return cycle_figures(base, adaptive=False, order=8, step=5e-6)
+    return cycle_figures(base, method="fixed", order=8, step=5e-6)
 
 
 def observed_order(engine, order, converged):
     steps = np.geomspace(*WINDOWS[order], 8)
     errors = []
     for step in steps:
-        figures = cycle_figures(engine, adaptive=False, order=order, step=float(step))
+        figures = cycle_figures(engine, method="fixed", order=order, step=float(step))
         errors.append(np.sqrt(np.mean((figures / converged - 1.0) ** 2)))
     return np.polyfit(np.log(steps), np.log(errors), 1)[0]
 
@@ -96,7 +96,7 @@ def test_energy_balance_closes(base):
 @pytest.mark.parametrize("order", [2, 4, 5])
 def test_energy_balance_closes_at_the_order_of_the_method(base, order):
     coarse, fine = 40e-6, 10e-6
-    errors = [residual(base, 4, adaptive=False, order=order, step=step) for step in (coarse, fine)]
+    errors = [residual(base, 4, method="fixed", order=order, step=step) for step in (coarse, fine)]
     assert math.log(errors[0] / errors[1]) / math.log(coarse / fine) > order - 0.5
 
 
@@ -235,7 +235,7 @@ def test_event_on_a_grid_point_and_zero_length_steps():
     """A fixed step that ends exactly on dead centres neither misses nor doubles them."""
     engine = bounce_engine(stiffness=30e3, mass=2.39, pressure=1e-6)
     half = math.pi * math.sqrt(2.39 / 60e3)
-    run, _ = strokes_from_start(engine, 10, adaptive=False, order=8, step=half / 40)
+    run, _ = strokes_from_start(engine, 10, method="fixed", order=8, step=half / 40)
     np.testing.assert_allclose(run.strokes["duration"], half, rtol=1e-9)
 
 
@@ -269,7 +269,7 @@ def test_keep_cycles_keeps_the_last_ones(base):
 def test_run_continues_identically_however_buffers_fill(base, monkeypatch):
     import importlib
 
-    module = importlib.import_module("saleg.simulation.integration")
+    module = importlib.import_module("saleg.simulation.course")
     whole = saleg.simulate(base, 0.3)
     monkeypatch.setattr(module, "STEPS_PER_CALL", 7)
     pieces = saleg.simulate(base, 0.3)

@@ -12,9 +12,10 @@ from saleg.batch.table import CHUNK, Row, in_pieces, rows_of, table_of
 from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine
-from saleg.simulation.integration import settings_of, simulate
+from saleg.simulation.integration import simulate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance
+from saleg.simulation.settings import Settings
 from saleg.status import Status
 from saleg.steady.solver import Effort, SteadyState, check_effort, check_tolerance, steady_state
 
@@ -125,7 +126,7 @@ def simulate_many(
     DataFrame
         One row per engine, in order: status, message and the figures of the last cycle.
     """
-    settings_of(duration, **settings)
+    Settings(duration, **settings).checked()
     row_of = partial(_run_row, duration=duration, settings=settings)
     return batch_table(row_of, engines, RUN_UNITS, kernel_for, executor, workers, chunk)
 

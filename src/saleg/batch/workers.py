@@ -18,7 +18,7 @@ from contextlib import nullcontext
 from numbers import Integral
 from typing import TypeVar
 
-from saleg.simulation.integration import SettingsError
+from saleg.simulation.settings import SettingsError
 
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")

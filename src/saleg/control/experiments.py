@@ -21,8 +21,8 @@ from saleg.laws.control.load import ScaledLoad
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold
 from saleg.quantities import is_number
-from saleg.simulation.integration import SettingsError
 from saleg.simulation.run import Run
+from saleg.simulation.settings import SettingsError
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor

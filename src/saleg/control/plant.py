@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from saleg.control.outcome import blamed, controlled_outcome, fault_message
 from saleg.control.sensors import measured
-from saleg.control.verdict import blamed, fault_message, verdict_of
 from saleg.engine import Engine
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
@@ -20,9 +20,10 @@ from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import ActuatorLaw
 from saleg.quantities import is_number
+from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import State, prepare
-from saleg.simulation.integration import Course, Replay, Settings, SettingsError, settings_of
 from saleg.simulation.run import Run
+from saleg.simulation.settings import Settings, SettingsError
 
 #: Strokes whose commands are remembered: the last full cycle is among them.
 LOGGED = 8
@@ -196,7 +197,7 @@ class Plant:
         Run
         """
         code = layout.END_OF_TIME if self.running else self._code
-        status, message = verdict_of(self._course, code, fault)
+        status, message = controlled_outcome(self._course, code, fault)
         return self._course.run(status, message, self._replay())
 
     def _replay(self) -> ReplayOfCommands | None:
@@ -233,7 +234,7 @@ def course_of(
     engine: Engine, controller: Controller, duration: float, controlled: int, settings: Any
 ) -> Course:
     """A run about to begin, under a controller."""
-    known: Settings = settings_of(duration, **{"stall_stroke": 0.0, **settings})
+    known = Settings(duration, **{"stall_stroke": 0.0, **settings}).checked()
     engine.validate()
     controller.validate()
     engine.check_laws()

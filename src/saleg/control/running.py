@@ -12,9 +12,9 @@ import numpy as np
 from saleg.batch.many import RUN_UNITS, batch_table, run_row
 from saleg.batch.table import CHUNK, Row
 from saleg.compiler.compiled_engine import compiled_engine
+from saleg.control.outcome import controlled_outcome
 from saleg.control.plant import InPython, Plant, course_of, give
 from saleg.control.sensors import Measurement, Sensors, measured
-from saleg.control.verdict import verdict_of
 from saleg.engine import Engine
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
@@ -22,8 +22,8 @@ from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import ActuatorLaw
 from saleg.quantities import is_number
-from saleg.simulation.integration import SettingsError
 from saleg.simulation.run import Run
+from saleg.simulation.settings import SettingsError
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -139,10 +139,9 @@ def _compiled(engine: Engine, controller: Controller, duration: float, settings:
     try:
         give(course, parts.act(measured(course.state)), first=True)
     except ControllerError as error:
-        return course.run(*verdict_of(course, 0, str(error)))
+        return course.run(*controlled_outcome(course, 0, str(error)))
     course.state.engine["memory"][0] = parts.memory.ravel()
-    code = course.go_on()
-    return course.run(*verdict_of(course, code), course.replay())
+    return course.finish(controlled_outcome)
 
 
 def _in_python(

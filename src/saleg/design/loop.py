@@ -25,8 +25,8 @@ from saleg.engine.start import CompressedCharge
 from saleg.kernel import layout
 from saleg.kernel.orbit import read_vector, write_vector
 from saleg.quantities import Problem
+from saleg.simulation.course import STEPS_PER_CALL
 from saleg.simulation.initial_state import State, prepare
-from saleg.simulation.integration import STEPS_PER_CALL
 from saleg.status import Status
 from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
 from saleg.steady.slow_states import find_settled

@@ -26,7 +26,7 @@ from saleg.reference.segments import (
     scales,
 )
 from saleg.simulation.initial_state import State
-from saleg.simulation.outcome import verdict
+from saleg.simulation.outcome import outcome_of
 from saleg.simulation.run import Run
 
 __all__ = ["simulate"]
@@ -100,7 +100,7 @@ def simulate(
     except SolverFailure as failure:
         code, trouble = layout.STEP_FAILURE, f" ({failure})"
     strokes = _rows(running.strokes, layout.STROKE_RECORD)
-    status, message = verdict(engine, code, _final_state(running), strokes)
+    status, message = outcome_of(engine, code, _final_state(running), strokes)
     return Run(
         engine=engine,
         status=status,
@@ -150,7 +150,7 @@ def _rows(rows: list[np.ndarray], dtype: np.dtype) -> np.ndarray:
 
 
 def _final_state(running: RunningEngine) -> State:
-    """What the verdict asks of a run's end, in the records it reads."""
+    """What the outcome depends on at a run's end, in the records it reads."""
     E = np.zeros(1, layout.ENGINE_RECORD)
     E["t"], E["stroke"] = running.t, running.machine.stroke
     E["maximum_stroke"] = running.engine.maximum_stroke

@@ -1,4 +1,4 @@
-"""What became of a run: status and message."""
+"""Outcome of a run: status and message."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ STILL_PERIODS = 10.0
 STILL = 0.01
 
 
-def verdict(
+def outcome_of(
     engine: Engine, code: int, state: State, strokes: np.ndarray, conserves: bool = True
 ) -> tuple[Status, str]:
     """Status of a run and a message that says what happened, when, and what to try.

@@ -119,8 +119,8 @@ def readable(name: str, unit: str, words: str = "") -> Readable:
 
     Examples
     --------
-    >>> readable("peak_pressure", "Pa").label, readable("peak_pressure", "Pa").of(103e5)
-    ('peak pressure [bar]', 103.0)
+    >>> readable("power", "W").label, readable("power", "W").of(22500.0)
+    ('power [kW]', 22.5)
     >>> readable("egr", "-").label
     'EGR [%]'
     """

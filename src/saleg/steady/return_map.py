@@ -35,9 +35,10 @@ from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
 from saleg.laws import NoHeatTransfer, NoMisfires
 from saleg.laws.arguments import Charge, Gas, Motion
 from saleg.laws.base import Alternator, Law
+from saleg.simulation.course import STEPS_PER_CALL, options_record
 from saleg.simulation.initial_state import State
-from saleg.simulation.integration import STEPS_PER_CALL, Settings, options_record
 from saleg.simulation.kernel_arguments import arguments_of
+from saleg.simulation.settings import Detail, Settings
 
 #: Longest time to the next return, over the natural time of half a stroke.
 LONGEST = 200.0
@@ -141,11 +142,10 @@ class ReturnMap:
         settings = Settings(
             duration=math.inf,
             rtol=rtol,
-            peaks=0,
             motored_pressure=engine.needs_motored_pressure,
         )
         E = state.engine[0]
-        options = options_record(settings, math.inf)
+        options = options_record(settings, math.inf, Detail(peaks=0))
         options["events"] = 0
         options["max_steps"] = most_steps
         options["longest"] = LONGEST * E["length_scale"] / E["speed_scale"]

@@ -21,17 +21,13 @@ from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
 from saleg.quantities import is_number
+from saleg.simulation.course import STEPS_PER_CALL, Replay
 from saleg.simulation.initial_state import natural_period, prepare
-from saleg.simulation.integration import (
-    STEPS_PER_CALL,
-    Replay,
-    Settings,
-    SettingsError,
-    simulate,
-)
+from saleg.simulation.integration import simulate
 from saleg.simulation.outcome import is_dead, is_idling
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
+from saleg.simulation.settings import Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
 from saleg.steady.slow_states import find_settled

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from saleg.simulation.integration import Replay
+from saleg.simulation.course import Replay
 from saleg.steady.return_map import NoReturn, ReturnMap, is_symmetric, sealed_entries
 
 #: Tolerance of the integrator for differences of the map, which magnify its error.

@@ -21,11 +21,13 @@ from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.tableaus import FIXED_STEP
 from saleg.quantities import is_number
+from saleg.simulation.course import options_record
 from saleg.simulation.initial_state import prepare
-from saleg.simulation.integration import Settings, SettingsError, options_record, simulate
-from saleg.simulation.outcome import verdict
+from saleg.simulation.integration import simulate
+from saleg.simulation.outcome import outcome_of
 from saleg.simulation.records import Records
 from saleg.simulation.run import Run
+from saleg.simulation.settings import Settings, SettingsError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -293,7 +295,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
     engine.validate()
     (kernel, P, control), state = compiled_engine(engine, modules=DELAYED), prepare(engine)
     records = Records(False, None)
-    options = options_record(Settings(duration, adaptive=False, step=step), duration)
+    options = options_record(Settings(duration, step=step), duration)
     forces = np.full(int(delay) + 1, _gas_force(state))
     work = tuple(np.zeros(layout.N_ALL) for _ in range(3))
     tables, code = records.tables, layout.BUFFER_FULL
@@ -314,7 +316,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
         )
         records.make_room()
     strokes = records.kept_strokes.joined()
-    status, message = verdict(engine, code, state, strokes, conserves=False)
+    status, message = outcome_of(engine, code, state, strokes, conserves=False)
     return Run(
         engine=engine,
         status=status,

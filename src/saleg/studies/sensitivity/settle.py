@@ -21,7 +21,7 @@ SETTLING_TIMES = (3.0, 12.0)
 TOLERANCE = 1e-9
 #: The same of the loop of a design, whose mass must agree to it too.
 LOOP_TOLERANCE = 1e-8
-#: Cycles whose records are kept: those the verdict on a run looks at.
+#: Cycles whose records are kept: those its outcome depends on.
 KEPT_CYCLES = 20
 
 

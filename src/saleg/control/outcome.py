@@ -1,4 +1,4 @@
-"""What became of a run under a controller."""
+"""Outcome of a run under a controller: status and message."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from saleg.kernel import layout
 from saleg.kernel.decide import with_motoring
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS, StateLogic
-from saleg.simulation.integration import Course
-from saleg.simulation.outcome import settled, verdict
+from saleg.simulation.course import Course
+from saleg.simulation.outcome import outcome_of, settled
 from saleg.status import Status
 
 #: Which part of a controller gives each command.
@@ -81,7 +81,7 @@ def _compiled_fault(course: Course) -> str:
     return who if "raised" in who else f"{who}: {fault_message(fault, commands, course.controller)}"
 
 
-def verdict_of(course: Course, code: int, fault: str = "") -> tuple[Status, str]:
+def controlled_outcome(course: Course, code: int, fault: str = "") -> tuple[Status, str]:
     """Status and message of a run under a controller.
 
     An engine that is motored, or whose fuel is cut, when its time is up has done as it was told.
@@ -93,9 +93,9 @@ def verdict_of(course: Course, code: int, fault: str = "") -> tuple[Status, str]
         return Status.CONTROLLER_FAULT, f"at t = {t:.6g} s {_compiled_fault(course)}"
     strokes = course.strokes
     if code != layout.END_OF_TIME or E["direction"] == 0.0:
-        return verdict(course.engine, code, course.state, strokes)
+        return outcome_of(course.engine, code, course.state, strokes)
     if E["motoring"] == 0.0 and E["equivalence_ratio"] > 0.0:
-        return verdict(course.engine, code, course.state, strokes)
+        return outcome_of(course.engine, code, course.state, strokes)
     what = "motored" if E["motoring"] > 0.0 else "without fuel"
     length = float(E["stroke"])
     where = f"{what} at t = {t:.6g} s with a stroke of {1e3 * length:.4g} mm"

@@ -1,0 +1,116 @@
+"""Settings of a run: how it is integrated, and what is kept of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from saleg.errors import SalegError
+from saleg.kernel import tableaus
+from saleg.quantities import is_number
+
+#: Fixed step [s] where none is given.
+DEFAULT_STEP = 5e-6
+
+
+class SettingsError(SalegError, ValueError):
+    """A setting of :func:`saleg.simulate` that makes no sense."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Settings of a run, as :func:`saleg.simulate` describes them."""
+
+    duration: float
+    method: str = "adaptive"
+    order: int = 4
+    step: float | None = None
+    rtol: float = 1e-8
+    history: int | None = None
+    motored_pressure: bool = False
+    stall_stroke: float = 0.01
+    keep_cycles: int | None = None
+
+    @property
+    def adaptive(self) -> bool:
+        """Whether the steps are adaptive; giving a step asks for a fixed one."""
+        return self.method == "adaptive" and self.step is None
+
+    @property
+    def fixed_step(self) -> float:
+        """Fixed step [s]."""
+        return DEFAULT_STEP if self.step is None else self.step
+
+    def checked(self) -> Settings:
+        """The same as plain numbers, if they make sense.
+
+        Raises
+        ------
+        SettingsError
+            Naming everything that is wrong.
+        """
+        wrong = self._mistakes()
+        if wrong:
+            raise SettingsError("cannot simulate:\n" + "\n".join(f"  {text}" for text in wrong))
+        return replace(
+            self,
+            duration=float(self.duration),
+            order=int(self.order),
+            step=None if self.step is None else float(self.step),
+            rtol=float(self.rtol),
+            history=None if self.history is None else int(self.history),
+            motored_pressure=bool(self.motored_pressure),
+            stall_stroke=float(self.stall_stroke),
+        )
+
+    def _mistakes(self) -> list[str]:
+        wrong = []
+        if self.method not in ("adaptive", "fixed"):
+            wrong.append(f"method = {self.method!r}: must be 'adaptive' or 'fixed'")
+        if not is_number(self.order) or self.order not in tableaus.FIXED_STEP:
+            orders = ", ".join(str(number) for number in tableaus.FIXED_STEP)
+            wrong.append(f"order = {self.order!r}: must be one of {orders}")
+        for name, value, low, high in (
+            ("duration", self.duration, 0.0, math.inf),
+            ("step", self.fixed_step, 1e-12, 1.0),
+            ("rtol", self.rtol, 9.9e-15, 1.01e-2),
+        ):
+            if not is_number(value) or not low < value < high:
+                wrong.append(f"{name} = {value!r}: must be a number > {low:g} and < {high:g}")
+        if not is_number(self.stall_stroke) or not 0.0 <= self.stall_stroke < 1.0:
+            wrong.append(f"stall_stroke = {self.stall_stroke!r}: must be a number >= 0 and < 1")
+        for name, count in (("history", self.history), ("keep_cycles", self.keep_cycles)):
+            if count is None:
+                continue
+            if not (isinstance(count, (int, np.integer)) and 1 <= count < 2**31):
+                wrong.append(f"{name} = {count!r}: must be a whole number >= 1, or None")
+        return wrong
+
+    def described(self) -> dict[str, Any]:
+        """What a run says of how it was integrated."""
+        motored = {"motored_pressure": self.motored_pressure}
+        if self.adaptive:
+            return {"method": "adaptive", "rtol": self.rtol, **motored}
+        return {"method": "fixed", "order": self.order, "step": self.fixed_step, **motored}
+
+
+@dataclass(frozen=True)
+class Detail:
+    """Detail in which the kernel follows a run, beside its settings.
+
+    Attributes
+    ----------
+    peaks : int
+        0 looks for no peaks, 1 takes those at the steps, 2 locates them within the steps.
+    dense : int
+        Instants recorded within each step of the history.
+    last_stroke : float
+        Number of the stroke with whose end the run ends at the latest.
+    """
+
+    peaks: int = 1
+    dense: int = 0
+    last_stroke: float = math.inf
