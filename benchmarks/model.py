@@ -165,7 +165,7 @@ class Engine:
         self.y[P + side], self.y[K + side] = P_IN, 0.0
 
     def turn(self):
-        """Dead centre: regulator, books, and the way back."""
+        """Dead centre: regulator, totals, and the way back."""
         t, x = self.last_turn
         stroke = abs(self.y[X] - x)
         self.par[WEIGHT] = max(1.0 - GAIN * (0.9 * 2.0 * L - stroke) / L, 0.0)

@@ -163,7 +163,7 @@ def test_what_cannot_be_followed_is_said(base):
         saleg.steady.continuation.branch(base, "bore", -1.0)
     with pytest.raises(saleg.SalegError, match="cannot follow"):
         saleg.steady.continuation.branch(base, "bore", math.nan)
-    for bad in ({"step": math.nan}, {"step": 0.0}, {"most": 0}):
+    for bad in ({"step": math.nan}, {"step": 0.0}, {"max_points": 0}):
         with pytest.raises(saleg.SalegError, match="must be"):
             saleg.steady.continuation.branch(base, "bore", 0.07, **bad)
     with pytest.raises(saleg.SalegError, match="no steady state"):
@@ -202,7 +202,7 @@ def test_engines_that_never_repeat_are_simulated(base):
 
 
 def test_settings_are_checked(base):
-    for bad in ({"rtol": 1.0}, {"rtol": "x"}, {"most": -1}):
+    for bad in ({"rtol": 1.0}, {"rtol": "x"}, {"max_maps": -1}):
         with pytest.raises(saleg.SalegError):
             saleg.steady_state(base, **bad)
 
@@ -308,12 +308,30 @@ def test_the_orbit_of_a_steady_state_can_be_drawn(base):
 def test_waiting_gives_the_same_figures_as_solving(base):
     solved, waited = (
         saleg.steady_state(base, rtol=1e-8),
-        saleg.steady_state(base, rtol=1e-8, most=0),
+        saleg.steady_state(base, rtol=1e-8, max_maps=0),
     )
     assert waited.method == "simulation"
     for name, value in solved.quick_performance.to_dict().items():
         if name not in ("stability", "cr_change", "adverse_work"):
             assert getattr(waited.quick_performance, name) == pytest.approx(value, rel=1e-5), name
+
+
+def test_earlier_names_of_keywords_warn_and_go_on(base):
+    with pytest.warns(DeprecationWarning, match=r"steady_state\(most=\.\.\.\) is called max_maps"):
+        waited = saleg.steady_state(base, most=0)
+    assert waited.method == "simulation"
+    with pytest.raises(TypeError, match="most and max_maps"):
+        saleg.steady_state(base, most=0, max_maps=0)
+    with (
+        pytest.warns(DeprecationWarning, match="is called max_points"),
+        pytest.raises(saleg.continuation.NoBranch, match="max_points = 1"),
+    ):
+        saleg.continuation.branch(base, "left.bore", 0.066, most=1)
+
+
+def test_a_steady_state_says_first_what_it_is(base):
+    message = saleg.steady_state(base).message
+    assert message.startswith("fixed point of the half-cycle map, found in ")
 
 
 def test_a_force_that_jumps_does_not_hide_a_steady_state(base):

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 #: Most samples of a run: fewer than a controller in Python gets through in an hour.
-MOST_SAMPLES = 1e8
+MAX_SAMPLES = 1e8
 #: Columns of a table of runs under controllers.
 CONTROL_UNITS = {
     **RUN_UNITS,
@@ -114,9 +114,9 @@ def simulate(
     if compiled and isinstance(controller, Controller):
         return _compiled(engine, controller, duration, settings)
     if sample_time is not None and (
-        not is_number(sample_time) or not MOST_SAMPLES * sample_time >= duration > 0.0
+        not is_number(sample_time) or not MAX_SAMPLES * sample_time >= duration > 0.0
     ):
-        least = duration / MOST_SAMPLES if is_number(duration) else 0.0
+        least = duration / MAX_SAMPLES if is_number(duration) else 0.0
         raise SettingsError(f"sample_time = {sample_time!r}: must be a number >= {least:g} [s]")
     acting: Acts
     if isinstance(controller, Controller):

@@ -32,7 +32,7 @@ from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
 from saleg.steady.slow_states import find_settled
 from saleg.steady.solver import (
     DEFAULT_TOLERANCE,
-    MOST_MAPS,
+    MAX_MAPS,
     QUICK_MAPS,
     QUICK_STEPS,
     RESIDUAL,
@@ -51,7 +51,7 @@ from saleg.steady.solver import (
 #: tolerance of the integrator.
 MASS_TOLERANCE = 1.0
 #: Orbits tried until the mass is that of the components; one will do for Eq. 60-67.
-MOST_ORBITS = 15
+MAX_ORBITS = 15
 #: Relative step of differences of the mass, and the fields of the engine's record they go into.
 STEP = 1e-3
 #: How a map is told its mass, given the operation of the last orbit.
@@ -59,10 +59,10 @@ Way = Callable[[State, Design, Operation], None]
 LAW = ("mass_fixed", "mass_per_stroke", "mass_per_work")
 #: Simulations that try to find mass and motion together where no fixed point is found, and strokes
 #: at their end over which stroke, frequency and power are averaged.
-MOST_SIMULATIONS = 15
+MAX_SIMULATIONS = 15
 LAST_STROKES = 20
 #: Continuation from the base case: first and least step as shares of the way, and most steps.
-FIRST_STEP, LEAST_STEP, MOST_STEPS = 0.25, 1.0 / 512.0, 60
+FIRST_STEP, MIN_STEP, MAX_STEPS = 0.25, 1.0 / 512.0, 60
 
 
 class Spent(NamedTuple):
@@ -256,8 +256,8 @@ def _continued(
     ways = zip(_charts(origin, guess, rtol, mirrored, None), repeat(_set_law))
     near, spent = _first_orbit(origin, ways, rtol, spent)
     share, step = 0.0, FIRST_STEP
-    for _ in range(MOST_STEPS):
-        if near is None or step < LEAST_STEP:
+    for _ in range(MAX_STEPS):
+        if near is None or step < MIN_STEP:
             break
         ahead = min(share + step, 1.0)
         target = design if ahead == 1.0 else _between(origin, goal, ahead)
@@ -333,8 +333,8 @@ class _Orbit(NamedTuple):
 def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way, quick: bool) -> _Orbit:
     """Find an orbit whose mass is that of its components; the chart then holds its engine too."""
     spent, operation = 0, Operation.guess(chart.engine)
-    most = QUICK_MAPS if quick else MOST_MAPS
-    for _ in range(MOST_ORBITS):
+    most = QUICK_MAPS if quick else MAX_MAPS
+    for _ in range(MAX_ORBITS):
         way(chart.state, design, operation)
         found, strokes = find_settled(chart, most, RESIDUAL * rtol, patient=not quick)
         spent += strokes
@@ -395,7 +395,7 @@ def _continued_message(state: DesignedState) -> DesignedState:
 
 def _simulated(design: Design, mass: float, rtol: float, spent: Spent, why: str) -> DesignedState:
     """Simulate and size the components for how that ends, until both agree or never will."""
-    for _ in range(MOST_SIMULATIONS):
+    for _ in range(MAX_SIMULATIONS):
         steady = waited_for(design.engine(mass), rtol, *spent, why)
         assert steady.fallback is not None
         strokes = steady.strokes if len(steady.strokes) else steady.fallback.strokes[-LAST_STROKES:]
@@ -407,7 +407,7 @@ def _simulated(design: Design, mass: float, rtol: float, spent: Spent, why: str)
         mass, spent = state.masses.total, Spent(steady.half_cycles, steady.evaluations)
     state.status = Status.UNSTEADY
     state.message += (
-        f"; but after {MOST_SIMULATIONS} simulations the mass of the components still differs from "
+        f"; but after {MAX_SIMULATIONS} simulations the mass of the components still differs from "
         f"that of the orbit by {state.mass_error:.1e}"
     )
     return state

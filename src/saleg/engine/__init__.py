@@ -5,9 +5,9 @@ from saleg.engine.chambers import (
     Chamber,
     CombustionChamber,
     Cylinder,
-    Filling,
     Fuel,
     Intake,
+    ReferenceState,
     SealedCylinder,
     Translator,
 )
@@ -21,9 +21,9 @@ __all__ = [
     "Controller",
     "Cylinder",
     "Engine",
-    "Filling",
     "Fuel",
     "Intake",
+    "ReferenceState",
     "SealedCylinder",
     "Translator",
 ]

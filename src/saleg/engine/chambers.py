@@ -73,7 +73,7 @@ class Fuel:
     air_fuel_ratio: float = quantity("-", default=17.5, low=0, open_low=True)
 
 
-class Filling(NamedTuple):
+class ReferenceState(NamedTuple):
     """State in which the charge of a chamber is known: at port closing, or at the midpoint.
 
     Attributes
@@ -121,7 +121,7 @@ class Chamber:
         return {slot: getattr(self, slot) for slot in CHAMBER_SLOTS if hasattr(self, slot)}
 
     @property
-    def filling(self) -> Filling:
+    def reference_state(self) -> ReferenceState:
         """State in which its charge is known."""
         raise NotImplementedError
 
@@ -171,9 +171,9 @@ class Cylinder(CombustionChamber):
     intake: Intake = field(default_factory=Intake)
 
     @property
-    def filling(self) -> Filling:
+    def reference_state(self) -> ReferenceState:
         """State of the fresh charge as the ports close."""
-        return Filling(self.intake.pressure, self.intake.temperature, self.port_closing)
+        return ReferenceState(self.intake.pressure, self.intake.temperature, self.port_closing)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -198,9 +198,9 @@ class SealedCylinder(CombustionChamber):
     curve_exponent: float = quantity("-", default=1.4, low=1, open_low=True)
 
     @property
-    def filling(self) -> Filling:
+    def reference_state(self) -> ReferenceState:
         """State of a fresh charge at the midpoint."""
-        return Filling(self.pressure, self.temperature, self.half_stroke)
+        return ReferenceState(self.pressure, self.temperature, self.half_stroke)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -223,6 +223,6 @@ class BounceChamber(Chamber):
     heat_transfer: HeatTransfer = field(default_factory=NoHeatTransfer)
 
     @property
-    def filling(self) -> Filling:
+    def reference_state(self) -> ReferenceState:
         """State at the midpoint."""
-        return Filling(self.pressure, self.temperature, self.half_stroke)
+        return ReferenceState(self.pressure, self.temperature, self.half_stroke)

@@ -163,7 +163,7 @@ class AtRest(Start):
 def contents(chamber: Any, displacement: float, burning: bool = False) -> Contents:
     """What a chamber holds with its piston `displacement` [m] from the midpoint, outward."""
     height = chamber.half_stroke + displacement
-    full = chamber.filling
+    full = chamber.reference_state
     squeeze = full.clearance / height
     if not _burns_fuel(chamber):
         pressure = full.pressure * adiabatic_rise(chamber, squeeze)
@@ -183,7 +183,7 @@ def adiabatic_rise(chamber: Any, squeeze: float) -> float:
     sealed chamber does not depend on where a run begins.
     """
     gamma = chamber.gas_properties.gamma
-    filled = chamber.filling.temperature
+    filled = chamber.reference_state.temperature
     ln_T, steps = math.log(filled), 64
     h = math.log(squeeze) / steps
     for _ in range(steps):
@@ -210,7 +210,7 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
 
 def charge_mass(chamber: Any) -> float:
     """Mass of the charge [kg]; of a ported cylinder ``p_in A d_po / (R T_in)``."""
-    full, area = chamber.filling, math.pi * chamber.bore**2 / 4.0
+    full, area = chamber.reference_state, math.pi * chamber.bore**2 / 4.0
     density = full.pressure / (chamber.gas_properties.gas_constant * full.temperature)
     return float(density * area * full.clearance)
 
@@ -219,7 +219,7 @@ def _resting(chamber: Any) -> Contents:
     """A closed chamber, filled at the state its charge is known in, without fuel."""
     if not _burns_fuel(chamber):
         return contents(chamber, 0.0)
-    full = chamber.filling
+    full = chamber.reference_state
     mass = charge_mass(chamber) * chamber.half_stroke / full.clearance
     return Contents(False, False, False, full.pressure, mass, 0.0, mass, 0.0)
 
@@ -230,7 +230,7 @@ def _stored_energy(engine: Any, charged: Chamber, x: float, held: Contents, lit:
     springs -= engine.springs.energy(Motion(0.0, 0.0, 0.0, 0.0))
     height = charged.half_stroke - abs(x)
     volume = math.pi * charged.bore**2 / 4.0 * height
-    full = charged.filling.clearance
+    full = charged.reference_state.clearance
     n = COMPRESSION_EXPONENT - 1.0
     gas = held.pressure * volume / n * max(1.0 - (height / full) ** n, 0.0)
     heat = held.fuel * charged.fuel.lower_heating_value if lit else 0.0  # type: ignore[attr-defined]

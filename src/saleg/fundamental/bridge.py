@@ -136,7 +136,7 @@ def from_engine(
         stiffness=_stiffness(engine, chamber.half_stroke),
         mass=engine.translator.mass,
     )
-    pressure, temperature, closing = chamber.filling
+    pressure, temperature, closing = chamber.reference_state
     if gamma is None:
         gamma = float(chamber.gas_properties.gamma(temperature))  # type: ignore[attr-defined]
     elif not gamma > 1.0:

@@ -2,7 +2,7 @@
 
 It shares the laws with the integrator and nothing else. `P` holds the laws, `E` what the engine
 and `C` what each of its chambers keeps between two events (`EngineState` and `ChamberState` of
-:mod:`saleg.reference.books`, or records of the same numbers), `side` is 0 for left, 1 for right.
+:mod:`saleg.reference.states`, or records of the same numbers), `side` is 0 for left, 1 for right.
 """
 
 from math import nan, pi

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 #: Share of the fuel energy below which a flow is not drawn.
 VISIBLE = 1e-3
 #: Share of the fuel energy that may be left over in a balance that is drawn.
-MOST_RESIDUAL = 0.01
+MAX_RESIDUAL = 0.01
 
 FLOW_COLOURS = {
     "electrical output": ALTERNATOR_COLOUR,
@@ -73,7 +73,7 @@ def balance_of(run: Run) -> EnergyBalance:
     if balance.fuel <= 0.0:
         raise NoCycle("no energy balance to draw: the last full cycle had no fresh fuel")
     off = abs(balance.residual) / balance.fuel
-    if not off <= MOST_RESIDUAL:
+    if not off <= MAX_RESIDUAL:
         raise NoCycle(
             f"no energy balance to draw: it is off by {100.0 * off:.2g} % of the fuel energy; "
             "try a smaller step or rtol"

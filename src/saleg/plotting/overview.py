@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 #: Least relative height of an axis of :func:`approach_to_steady_state`: what varies less is steady.
-LEAST_SPAN = 1e-4
+MIN_SPAN = 1e-4
 
 
 @documented(axes=2)
@@ -83,7 +83,7 @@ def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = 
 def _readable(ax: Axes) -> None:
     """Few ticks with plain numbers, and a height that does not magnify rounding."""
     low, high = ax.get_ylim()
-    spare = 0.5 * (LEAST_SPAN * max(abs(low), abs(high)) - (high - low))
+    spare = 0.5 * (MIN_SPAN * max(abs(low), abs(high)) - (high - low))
     if spare > 0.0:
         ax.set_ylim(low - spare, high + spare)
     ax.locator_params(nbins=5)

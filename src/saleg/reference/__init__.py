@@ -14,7 +14,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
-from saleg.reference.books import RunningEngine
+from saleg.reference.running_engine import RunningEngine
 from saleg.reference.segments import (
     Solver,
     SolverFailure,
@@ -32,7 +32,7 @@ from saleg.simulation.run import Run
 __all__ = ["simulate"]
 
 #: Segments without progress in time after which a run is given up.
-MOST_AT_ONE_INSTANT = 20
+MAX_AT_ONE_INSTANT = 20
 
 
 def simulate(
@@ -125,7 +125,7 @@ def _run_on(
         before = running.t
         event = advance(running, duration, solver, tally)
         idle = 0 if running.t > before else idle + 1
-        if idle > MOST_AT_ONE_INSTANT:
+        if idle > MAX_AT_ONE_INSTANT:
             raise SolverFailure("no progress in time")
         if running.machine.direction == 0.0:
             running.machine.direction = float(np.sign(running.y[VELOCITY]))

@@ -22,7 +22,8 @@ from saleg.kernel.plain_rhs import (
     rates,
 )
 from saleg.laws.arguments import Motion
-from saleg.reference.books import ChamberState, EngineState, RunningEngine
+from saleg.reference.running_engine import RunningEngine
+from saleg.reference.states import ChamberState, EngineState
 from saleg.simulation.initial_state import current_scale
 
 Rates = Callable[[float, np.ndarray], np.ndarray]

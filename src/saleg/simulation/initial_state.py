@@ -175,7 +175,7 @@ def _stiffness(engine: Engine, length: float) -> float:
     total = max(-(ahead - behind) / (2.0 * dx), 0.0)
     for chamber in engine.chambers:
         area = math.pi * chamber.bore**2 / 4.0
-        total += 1.35 * chamber.filling.pressure * area / chamber.half_stroke
+        total += 1.35 * chamber.reference_state.pressure * area / chamber.half_stroke
     return float(total)
 
 
@@ -188,7 +188,7 @@ def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
     c.head_gap = chamber.head_gap
     c.gas_constant = chamber.gas_properties.gas_constant  # type: ignore[attr-defined]
     c.ignition_time = -1.0
-    full = chamber.filling
+    full = chamber.reference_state
     c.p_closing = c.intake_pressure = full.pressure
     c.T_closing = c.intake_temperature = full.temperature
     c.V_closing = c.area * full.clearance

@@ -18,7 +18,7 @@ STEADY = 1e-6
 #: relative, within which a run is steady.
 NEAR = 1e-4
 #: Residual of a cycle's energy balance, over the heat released, beyond which it is no result.
-MOST_IMBALANCE = 0.05
+MAX_IMBALANCE = 0.05
 #: Cycles over which it must stay below.
 STEADY_CYCLES = 5
 #: Natural periods without a dead centre after which a piston may stand still, and the share of the
@@ -66,7 +66,7 @@ def outcome_of(
             f"{_STALL_HINT}"
         )
     off = _imbalance(strokes) if conserves else 0.0
-    if off > MOST_IMBALANCE:
+    if off > MAX_IMBALANCE:
         return Status.STEP_FAILURE, (
             f"the steps are too coarse: at t = {t:.6g} s the energy balance of the last cycle is "
             f"off by {100.0 * off:.2g} % of the heat released; try a smaller step or rtol"

@@ -23,6 +23,7 @@ from saleg.kernel.orbit import Z_CHAMBERS
 from saleg.quantities import is_number
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
+from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import (
     NoReturn,
     ReturnMap,
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 #: Corrector: iterations, the residual it must reach, and how far it may go.
-MOST_CORRECTIONS = 8
+MAX_CORRECTIONS = 8
 CONVERGED = 1e-8
 FARTHEST = 0.5
 #: Multiplier of the map beyond which it is no smooth map any more.
@@ -169,13 +170,14 @@ def _largest(point: Point) -> float:
     return float(np.abs(point.stability.multipliers).max(initial=1e-300))
 
 
+@renamed_keywords(most="max_points")
 def branch(
     engine: Engine,
     path: str,
     stop: float,
     *,
     step: float | None = None,
-    most: int = 200,
+    max_points: int = 200,
 ) -> Branch:
     """Follow the steady state of an engine as one of its parameters changes.
 
@@ -190,8 +192,8 @@ def branch(
         through a fold to where it began, or when the orbit is lost.
     step : float, optional
         Longest step in the parameter; a fortieth of the way unless given.
-    most : int
-        Most points.
+    max_points : int
+        Points after which it ends.
 
     Returns
     -------
@@ -217,8 +219,8 @@ def branch(
         raise NoBranch(f"cannot follow '{path}' from {start!r} to {stop!r}")
     if step is not None and not (is_number(step) and 0.0 < step < math.inf):
         raise NoBranch(f"step = {step!r}: must be a number > 0")
-    if most < 2:
-        raise NoBranch(f"most = {most!r}: must be at least 2")
+    if max_points < 2:
+        raise NoBranch(f"max_points = {max_points!r}: must be at least 2")
     engine.replace(**{path: stop}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")
@@ -235,8 +237,8 @@ def branch(
     points: list[Point] = []
     for point in follower.points(first):
         points.append(point)
-        if len(points) >= most:
-            follower.ended = f"as many points as asked for ({most})"
+        if len(points) >= max_points:
+            follower.ended = f"as many points as asked for ({max_points})"
             break
     return Branch(engine, path, points, follower.ended)
 
@@ -255,7 +257,7 @@ class _Follower:
         """Engine a share `s` of the way along."""
         return self.engine.replace(**{self.path: self.start + s * self.way})
 
-    def chart(self, s: float, like: State) -> tuple[ReturnMap, State]:
+    def return_map(self, s: float, like: State) -> tuple[ReturnMap, State]:
         """Return map there, and a state to put vectors into, in the modes of another."""
         engine = self.engine_at(s)
         state = prepare(engine)
@@ -266,14 +268,14 @@ class _Follower:
 
     def residual(self, s: float, z: np.ndarray, like: State) -> np.ndarray:
         """How far a vector is from its image."""
-        chart, state = self.chart(s, like)
-        return chart.image(state, z) - z
+        return_map, state = self.return_map(s, like)
+        return return_map.image(state, z) - z
 
     def points(self, first: SteadyState) -> Iterator[Point]:
         """Points of the branch, the first steady state included."""
         assert first.replay is not None
         like = first.replay.start
-        s, z = 0.0, self.chart(0.0, like)[0].vector(like)
+        s, z = 0.0, self.return_map(0.0, like)[0].vector(like)
         tangent = np.zeros(len(z) + 1)
         tangent[-1] = 1.0
         corrected = self.correct(s, z, tangent, like)
@@ -326,10 +328,10 @@ class _Follower:
         """Newton's method in the plane through the guess; None if it does not converge."""
         guess, u = np.append(z, s), np.append(z, s)
         try:
-            for count in range(MOST_CORRECTIONS):
-                chart, state = self.chart(u[-1], like)
-                image = chart.image(state, u[:-1])
-                after = chart.state
+            for count in range(MAX_CORRECTIONS):
+                return_map, state = self.return_map(u[-1], like)
+                image = return_map.image(state, u[:-1])
+                after = return_map.state
                 if (after.chambers["mode"] != like.chambers["mode"]).any():
                     # An event has passed the dead centre: other entries of the vector count now.
                     like = self.settled(after, like)
@@ -370,8 +372,8 @@ class _Follower:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Matrix of Newton's method, and the derivative of the map alone."""
         s, z = u[-1], u[:-1]
-        chart, state = self.chart(s, like)
-        jacobian = chart.jacobian(state, z)
+        return_map, state = self.return_map(s, like)
+        jacobian = return_map.jacobian(state, z)
         low, high = max(s - 1e-5, 0.0), min(s + 1e-5, 1.0)  # neither may leave the allowed range
         by_parameter = self.residual(high, z, like) - self.residual(low, z, like)
         top = np.column_stack([jacobian - np.eye(len(z)), by_parameter / (high - low)])
@@ -379,11 +381,13 @@ class _Follower:
 
     def point(self, s: float, z: np.ndarray, like: State, jacobian: np.ndarray) -> Point:
         """Point of the branch with its stability and one cycle."""
-        chart, state = self.chart(s, like)
-        cycle = chart.cycle(state, z)
+        return_map, state = self.return_map(s, like)
+        cycle = return_map.cycle(state, z)
         if cycle.code != layout.END_OF_TIME:
             raise NoReturn(cycle.code)
-        steady = result_of(chart, 0, chart.evaluations, cycle.missed, "continuation", FINE)
+        steady = result_of(
+            return_map, 0, return_map.evaluations, cycle.missed, "continuation", FINE
+        )
         values = np.linalg.eigvals(jacobian)
         values = values[np.argsort(-np.abs(values))]
         period = float(steady.strokes["duration"].sum())

@@ -24,18 +24,18 @@ NEAR = 100.0
 #: Residual up to which what did not settle may only be slow.
 SLOW = 0.1
 #: Jumps of Newton's method.
-MOST_JUMPS = 30
+MAX_JUMPS = 30
 
 
 def find_settled(
-    chart: ReturnMap, most: int, tolerance: float, patient: bool = True
+    return_map: ReturnMap, max_maps: int, tolerance: float, patient: bool = True
 ) -> tuple[Search, int]:
     """Look for a fixed point that is near in all states, the slow ones included.
 
     Parameters
     ----------
-    chart : ReturnMap
-    most : int
+    return_map : ReturnMap
+    max_maps : int
         Maps between two jumps.
     tolerance : float
         Residual of the map.
@@ -50,55 +50,55 @@ def find_settled(
         Strokes integrated in all, verifying cycles included.
     """
     strokes, slow = 0, False
-    begin, smallest = chart.state.copy(), SLOW
-    for _ in range(MOST_JUMPS):
-        found = chart.find(most, tolerance)
+    begin, smallest = return_map.state.copy(), SLOW
+    for _ in range(MAX_JUMPS):
+        found = return_map.find(max_maps, tolerance)
         settled = found.code == layout.END_OF_TIME
-        strokes += int(found.maps * chart.strokes_per_map) + (2 if settled else 0)
+        strokes += int(found.maps * return_map.strokes_per_map) + (2 if settled else 0)
         if not settled:
             unsettled = found.code == layout.NOT_FOUND and found.maps > 0.0
             if not (patient and unsettled and found.residual < smallest):
                 return found, strokes
             smallest = found.residual
         # What was slow once is known too badly from two residuals: there the next jump decides.
-        if slow or not settled or not is_near(chart, NEAR * tolerance):
-            slow, jump = True, newton_step(chart)
+        if slow or not settled or not is_near(return_map, NEAR * tolerance):
+            slow, jump = True, newton_step(return_map)
             if jump is None:
                 break
             if not settled or np.abs(jump).max() > NEAR * tolerance:
-                chart.jump(jump)
+                return_map.jump(jump)
                 continue
-        if not give_back_entropy(chart, begin, NEAR * tolerance):
+        if not give_back_entropy(return_map, begin, NEAR * tolerance):
             return found, strokes
     return found._replace(code=layout.NOT_FOUND), strokes
 
 
-def is_near(chart: ReturnMap, distance: float) -> bool:
+def is_near(return_map: ReturnMap, distance: float) -> bool:
     """Whether the fixed point just found is as near, by what two residuals say of slow states.
 
     Entry by entry: from a residual a to a residual b that is m a, ``a b / (a - b)`` is left, by
     Aitken. The second residual is that of a whole cycle, for a map of half a cycle ``m (m + 1) a``:
     next to m = 1 that leaves ``3/2 a b / (2 a - b)``.
     """
-    first, second = chart.iterates.residual, chart.iterates.image - chart.iterates.point
-    usual, share = (2.0, 1.5) if chart.mirrored else (1.0, 1.0)
+    iterates = return_map.iterates
+    first, second = iterates.residual, iterates.image - iterates.point
+    usual, share = (2.0, 1.5) if return_map.mirrored else (1.0, 1.0)
     far = share * np.abs(first * second) > distance * np.abs(usual * first - second)
-    return not far.any() or not set(np.flatnonzero(far)) - conserved_entries(chart.engine)
+    return not far.any() or not set(np.flatnonzero(far)) - conserved_entries(return_map.engine)
 
 
-def newton_step(chart: ReturnMap) -> np.ndarray | None:
+def newton_step(return_map: ReturnMap) -> np.ndarray | None:
     """Way from the present state to the fixed point, as Newton's method has it; None if unknown."""
-    start = State(
-        chart.state.engine.copy(), chart.state.chambers.copy(), chart.state.y.copy(), np.zeros(0)
-    )
-    fine = ReturnMap.of(chart.engine, chart.state.copy(), FINE, chart.mirrored)
+    state = return_map.state
+    start = State(state.engine.copy(), state.chambers.copy(), state.y.copy(), np.zeros(0))
+    fine = ReturnMap.of(return_map.engine, return_map.state.copy(), FINE, return_map.mirrored)
     try:
         z = fine.vector(start)
         residual = fine.image(start, z) - z
         matrix = np.eye(len(z)) - fine.jacobian(start, z)
     except NoReturn:
         return None
-    free = [n for n in range(len(z)) if n not in conserved_entries(chart.engine)]
+    free = [n for n in range(len(z)) if n not in conserved_entries(return_map.engine)]
     if not np.isfinite(matrix).all() or not np.isfinite(residual).all():
         return None
     jump = np.zeros(len(z))
@@ -106,20 +106,20 @@ def newton_step(chart: ReturnMap) -> np.ndarray | None:
     return jump
 
 
-def give_back_entropy(chart: ReturnMap, begin: State, tolerance: float) -> bool:
+def give_back_entropy(return_map: ReturnMap, begin: State, tolerance: float) -> bool:
     """Give sealed adiabatic chambers the entropy they began with; whether that changed anything.
 
     Every entropy has an orbit of its own: extrapolation may not choose one.
     """
     changed = False
-    for side, chamber in enumerate(chart.engine.chambers):
+    for side, chamber in enumerate(return_map.engine.chambers):
         if not is_adiabatic(chamber):
             continue
-        ends = [state_of_gas(state, side) for state in (begin, chart.state)]
+        ends = [state_of_gas(state, side) for state in (begin, return_map.state)]
         gained = entropy_rise(chamber.gas_properties, *ends)  # type: ignore[attr-defined]
         if abs(gained) > tolerance:
             gamma = chamber.gas_properties.gamma(ends[1][0])  # type: ignore[attr-defined]
-            chart.state.y[layout.THETA + side] -= (gamma - 1.0) * gained
+            return_map.state.y[layout.THETA + side] -= (gamma - 1.0) * gained
             changed = True
     return changed
 

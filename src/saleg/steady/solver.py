@@ -29,18 +29,19 @@ from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.simulation.settings import Settings, SettingsError
 from saleg.status import Status
+from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
 from saleg.steady.slow_states import find_settled
 from saleg.steady.stability import Stability, stability
 
 DEFAULT_TOLERANCE = 1e-6
 #: Maps after which iteration gives up.
-MOST_MAPS = 60
+MAX_MAPS = 60
 #: Residual of the map a steady state may have, over the tolerance of the integrator.
 RESIDUAL = 1.0
 #: Residual of the verifying cycle beyond which a fixed point does not count, over the tolerance:
 #: an unstable one grows away from itself.
-MOST_MISSED = 100.0
+MAX_MISSED = 100.0
 #: The same beyond which a mirrored orbit is looked for again without the mirror.
 MIRROR_MISSED = 10.0
 #: Factor on the tolerance with which an engine that seems unsteady is tried once more.
@@ -187,11 +188,12 @@ class SteadyState:
         )
 
 
+@renamed_keywords(most="max_maps")
 def steady_state(
     engine: Engine,
     *,
     rtol: float = DEFAULT_TOLERANCE,
-    most: int = MOST_MAPS,
+    max_maps: int = MAX_MAPS,
     effort: Effort = Effort.THOROUGH,
 ) -> SteadyState:
     """Steady state of an engine: the fixed point of its return map.
@@ -206,7 +208,7 @@ def steady_state(
     engine : Engine
     rtol : float
         Tolerance of the integrator, and of the state after a return.
-    most : int
+    max_maps : int
         Maps to try before the other methods take over.
     effort : Effort
         ``Effort.QUICK`` ends with "not found" where the standard starts lead to no orbit.
@@ -231,8 +233,8 @@ def steady_state(
     (True, 46.97, True)
     """
     check_tolerance(rtol)
-    if not isinstance(most, (int, np.integer)) or most < 0:
-        raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
+    if not isinstance(max_maps, (int, np.integer)) or max_maps < 0:
+        raise SettingsError(f"max_maps = {max_maps!r}: must be a whole number >= 0")
     engine.validate()
     engine.check_laws()
     check_effort(effort)
@@ -241,11 +243,11 @@ def steady_state(
         why = "a law depends on time or counts charges"
         return not_found(engine, 0, 0, why) if quick else waited_for(engine, rtol, 0, 0, why)
     if quick:
-        return _solved(engine, rtol, min(int(most), QUICK_MAPS), quick)
-    found = _solved(engine, rtol, int(most), quick)
+        return _solved(engine, rtol, min(int(max_maps), QUICK_MAPS), quick)
+    found = _solved(engine, rtol, int(max_maps), quick)
     if found.status is Status.UNSTEADY and rtol > FINEST:
         # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
-        again = _solved(engine, max(FINER * rtol, FINEST), int(most), quick)
+        again = _solved(engine, max(FINER * rtol, FINEST), int(max_maps), quick)
         return replace(
             again,
             half_cycles=again.half_cycles + found.half_cycles,
@@ -277,7 +279,7 @@ def check_effort(effort: Effort) -> None:
         raise SettingsError(f"effort = {effort!r}: must be {names}")
 
 
-def _solved(engine: Engine, rtol: float, most: int, quick: bool) -> SteadyState:
+def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadyState:
     """Fixed point by iteration, from one start after the other; else simulation, unless quick."""
     symmetric = is_symmetric(engine)
     spent = evaluations = 0
@@ -285,15 +287,15 @@ def _solved(engine: Engine, rtol: float, most: int, quick: bool) -> SteadyState:
     for start, mirrored in itertools.product(starts(engine), ways):
         state = prepare(replace(engine, start=start))
         most_steps = QUICK_STEPS if quick else STEPS_PER_CALL
-        chart = ReturnMap.of(engine, state, rtol, mirrored, most_steps)
-        found, strokes = find_settled(chart, most, RESIDUAL * rtol, not quick)
+        return_map = ReturnMap.of(engine, state, rtol, mirrored, most_steps)
+        found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick)
         cycled = found.code == layout.END_OF_TIME
         spent += strokes
-        evaluations += chart.evaluations
+        evaluations += return_map.evaluations
         if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
             continue  # unstable, or not as symmetric as it looks
         if converged(found, rtol):
-            return result_of(chart, spent, evaluations, found.missed, "fixed point", rtol)
+            return result_of(return_map, spent, evaluations, found.missed, "fixed point", rtol)
     if quick:
         return not_found(engine, spent, evaluations, "no orbit from the standard starts")
     return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
@@ -323,21 +325,21 @@ def fuel_energy(chamber: Chamber) -> float:
 
 def converged(found: Search, tolerance: float) -> bool:
     """Whether a fixed point was found and a whole cycle from it comes back to it."""
-    return found.code == layout.END_OF_TIME and found.missed <= MOST_MISSED * tolerance
+    return found.code == layout.END_OF_TIME and found.missed <= MAX_MISSED * tolerance
 
 
 def result_of(
-    chart: ReturnMap, spent: int, evaluations: int, residual: float, method: str, rtol: float
+    return_map: ReturnMap, spent: int, evaluations: int, residual: float, method: str, rtol: float
 ) -> SteadyState:
     """What a converged map has found."""
-    chart.begin_on_the_left()
-    engine, strokes = chart.engine, chart.strokes[:2].copy()
-    snapshots = Snapshots(*(part.copy() for part in chart.snapshots))
+    return_map.begin_on_the_left()
+    engine, strokes = return_map.engine, return_map.strokes[:2].copy()
+    snapshots = Snapshots(*(part.copy() for part in return_map.snapshots))
     settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
     status, what = _kind(engine, strokes)
-    symmetry = "half-cycle map, mirrored" if chart.mirrored else "full-cycle map"
+    cycle = "half-cycle" if return_map.mirrored else "full-cycle"
     message = (
-        f"{what} a fixed point of the {symmetry}, found in {spent} half cycles; "
+        f"{what}fixed point of the {cycle} map, found in {spent} half cycles; "
         f"a whole cycle misses its start by {residual:.1e}"
     )
     return SteadyState(
@@ -354,12 +356,12 @@ def result_of(
 
 
 def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
-    """Status of a fixed point by what it delivers."""
+    """Status of a fixed point by what it delivers, and that as the beginning of a message."""
     if is_dead(engine, strokes):
-        return Status.STALLED, "does not fire, it only swings:"
+        return Status.STALLED, "swings without firing: "
     if is_idling(engine, strokes):
-        return Status.IDLING, "fires but delivers no power:"
-    return Status.STEADY, "it is"
+        return Status.IDLING, "fires but delivers no power: "
+    return Status.STEADY, ""
 
 
 def not_found(engine: Engine, spent: int, evaluations: int, why: str) -> SteadyState:

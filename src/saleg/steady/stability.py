@@ -85,8 +85,8 @@ def describe(found: Stability) -> str:
 def map_multipliers(replay: Replay, mirrored: bool) -> np.ndarray:
     """Multipliers of the return map itself, the largest first [-]."""
     start = replay.start
-    chart = ReturnMap.of(replay.engine, start.copy(), FINE, mirrored)
-    values = np.linalg.eigvals(chart.jacobian(start, chart.vector(start)))
+    return_map = ReturnMap.of(replay.engine, start.copy(), FINE, mirrored)
+    values = np.linalg.eigvals(return_map.jacobian(start, return_map.vector(start)))
     # The entropy that a sealed chamber keeps for ever is no instability: a multiplier of one each.
     for _ in sealed_entries(replay.engine):
         nearest = np.argmin(np.abs(values - 1.0))

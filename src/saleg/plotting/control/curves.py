@@ -45,7 +45,7 @@ NOT_FROM_ZERO = ("frequency", "motor_frequency", "intake_temperature")
 RUNS_AWAY = 3.0
 #: A compression ratio beyond the first is that of a piston about to hit the head; the axis then
 #: ends at the second.
-MOST_COMPRESSION = 100.0, 40.0
+MAX_RATIO = 100.0, 40.0
 
 
 def check(run: Run) -> None:
@@ -103,7 +103,7 @@ def _limit(ax: Axes, name: str, time: np.ndarray, drawn: np.ndarray) -> None:
 def _bounds(name: str, known: np.ndarray) -> tuple[float, float]:
     """What values have run away beyond, and where the axis ends if some have."""
     if name == "compression_ratio":
-        return MOST_COMPRESSION
+        return MAX_RATIO
     usual = float(np.percentile(np.abs(known), 95.0))
     return RUNS_AWAY * usual, 1.5 * usual
 

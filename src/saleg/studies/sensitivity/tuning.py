@@ -15,7 +15,7 @@ from saleg.studies.sensitivity.settle import is_stable, settle
 #: An engine or a design: what is given comes back changed.
 Subject = TypeVar("Subject", Engine, Design)
 
-MOST_TRIES = 30
+MAX_TRIES = 30
 #: Relative deviation of a tuned figure that is left.
 CLOSE = 1e-6
 
@@ -72,7 +72,7 @@ def tune(engine: Subject, path: str, figure: Callable[[Run], float], wanted: flo
     >>> round(warm.get("heat_transfer.a"), 1)
     91.6
     """
-    for _ in range(MOST_TRIES):
+    for _ in range(MAX_TRIES):
         run = settle(engine)
         found = figure(run)
         if not (is_stable(run) and found > 0.0 and wanted > 0.0):

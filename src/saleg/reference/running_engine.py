@@ -1,4 +1,4 @@
-"""Books of the reference solver: what stands in the chambers, and what happens at an event.
+"""Running engine of the reference solver: what stands in the chambers, what happens at an event.
 
 Written in terms of energies and masses, independently of the integrator's own switching.
 """
@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import Chamber, CombustionChamber, Cylinder, Engine, SealedCylinder
-from saleg.engine.start import Contents, Initial
+from saleg.engine import CombustionChamber, Cylinder, Engine, SealedCylinder
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import (
     INTEGRAL,
@@ -26,110 +25,31 @@ from saleg.kernel.plain_rhs import (
     rates,
 )
 from saleg.laws.arguments import Gas, Motion, Stroke
-from saleg.simulation.initial_state import rated_side
+from saleg.reference.states import (
+    ChamberState,
+    EngineState,
+    StrokeTotals,
+    chamber_state,
+    ratings,
+    stroke_before,
+)
 
 #: Distance from a port at which it counts as reached, over the half stroke [-].
 SLACK = 1e-13
-
-
-@dataclass
-class EngineState:
-    """What the right-hand side needs to know of the engine between two events.
-
-    Attributes
-    ----------
-    mass : float
-        Moving mass [kg].
-    motored : float
-        1 to integrate the motored pressures as well.
-    stroke, mean_piston_speed : float
-        Of the latest stroke [m, m/s].
-    load_weight, friction_held : float
-        What the laws of alternator and friction hold.
-    direction : float
-        +1 on the way right, -1 on the way left, 0 before the first movement.
-    """
-
-    mass: float
-    motored: float
-    stroke: float
-    mean_piston_speed: float
-    load_weight: float = 0.0
-    friction_held: float = 0.0
-    direction: float = 0.0
-
-
-@dataclass
-class ChamberState:
-    """What the right-hand side needs to know of a chamber between two events.
-
-    Attributes
-    ----------
-    sign : float
-        +1 if the chamber grows with x, else -1.
-    bore, area, half_stroke : float
-        Geometry [m, m^2, m].
-    wall_temperature, gas_constant : float
-        [K], [J/kg/K].
-    mass, fuel, air, burnt, equivalence_ratio : float
-        The charge [kg]; of all fuel to all air [-].
-    p_closing, T_closing, V_closing : float
-        Its state at port closing [Pa, K, m^3].
-    mode : float
-        Open, closed or burning.
-    armed : float
-        Whether the charge may ignite, as the layout has it.
-    t_ignition, duration, heat : float
-        Of the combustion: start and duration [s], heat if all that can burn does [J].
-    number : float
-        How many charges have been composed.
-    """
-
-    sign: float
-    bore: float
-    area: float
-    half_stroke: float
-    wall_temperature: float
-    gas_constant: float
-    mass: float
-    fuel: float
-    air: float
-    burnt: float
-    equivalence_ratio: float
-    p_closing: float
-    T_closing: float
-    V_closing: float
-    mode: float
-    armed: float
-    t_ignition: float = 0.0
-    duration: float = 1.0
-    heat: float = 0.0
-    number: float = 0.0
-
-
-@dataclass
-class StrokeBooks:
-    """What a chamber adds up from dead centre to dead centre.
-
-    Attributes
-    ----------
-    fresh_fuel_energy, exhaust_energy, exhaust_fuel_energy : float
-        [J].
-    ignition_time, ignition_height, combustion_duration : float
-        [s], [m], [s]; -1, 0 and 0 without ignition.
-    """
-
-    fresh_fuel_energy: float = 0.0
-    exhaust_energy: float = 0.0
-    exhaust_fuel_energy: float = 0.0
-    ignition_time: float = -1.0
-    ignition_height: float = 0.0
-    combustion_duration: float = 0.0
+_TOTALS = (
+    "alternator_work",
+    "electrical_energy",
+    "electrical_squared",
+    "alternator_impulse",
+    "friction_work",
+    "speed_squared",
+)
+_TOTALS_PER_SIDE = ("heat_released", "heat_lost", "gas_work", "port_work")
 
 
 @dataclass
 class RunningEngine:
-    """An engine on its way: state, modes, charges and the books of the stroke.
+    """Engine under way: state, modes, charges and totals of the stroke.
 
     Attributes
     ----------
@@ -140,12 +60,12 @@ class RunningEngine:
         State and quadratures, as :mod:`saleg.kernel.plain_rhs` has them.
     machine : EngineState
     chambers : list of ChamberState
-    books : list of StrokeBooks
+    totals : list of StrokeTotals
     x_dead_centre, t_dead_centre : float
         The last dead centre [m, s]; NaN before the first.
     earlier_fuel, earlier_speed_squared : float
         Of the stroke before the present one [J, m^2/s].
-    spent : set of int
+    renewal_due : set of int
         Sides whose charge is to be renewed, having come to its bottom dead centre.
     peaks : ndarray
         Greatest values of the stroke, in the order of the layout.
@@ -158,12 +78,12 @@ class RunningEngine:
     y: np.ndarray
     machine: EngineState
     chambers: list[ChamberState]
-    books: list[StrokeBooks]
+    totals: list[StrokeTotals]
     x_dead_centre: float
     t_dead_centre: float = 0.0
     earlier_fuel: float = 0.0
     earlier_speed_squared: float = 0.0
-    spent: set[int] = field(default_factory=set)
+    renewal_due: set[int] = field(default_factory=set)
     peaks: np.ndarray = field(default_factory=lambda: np.zeros(layout.N_PEAKS))
     strokes: list[np.ndarray] = field(default_factory=list)
     events: list[tuple[Any, ...]] = field(default_factory=list)
@@ -178,15 +98,15 @@ class RunningEngine:
         y[PRESSURE : PRESSURE + 2] = [held.pressure for held in contents]
         y[MOTORED_PRESSURE : MOTORED_PRESSURE + 2] = y[PRESSURE : PRESSURE + 2]
         chambers = [
-            _chamber_state(chamber, held, sign, start.x)
+            chamber_state(chamber, held, sign, start.x)
             for chamber, held, sign in zip(engine.chambers, contents, (1.0, -1.0), strict=True)
         ]
         mass = float(engine.translator.mass)
         machine = EngineState(mass, float(motored), start.stroke, start.mean_piston_speed)
-        books = [StrokeBooks(), StrokeBooks()]
+        totals = [StrokeTotals(), StrokeTotals()]
         x = start.x if start.at_dead_centre else math.nan
-        self = cls(engine, 0.0, y, machine, chambers, books, x)
-        self._hold(_stroke_before(engine, start, self.piston_area))
+        self = cls(engine, 0.0, y, machine, chambers, totals, x)
+        self._hold(stroke_before(engine, start, self.piston_area))
         for side, held in enumerate(contents):
             if held.burning and held.fuel > 0.0:
                 self.ignite(side)
@@ -261,7 +181,7 @@ class RunningEngine:
         """Carry out one change that is due; whether there was one."""
         due = {
             layout.EVENT_END_OF_COMBUSTION: (self._has_burnt, self.end_combustion),
-            layout.EVENT_CHARGE_RENEWAL: (self.spent.__contains__, self.renew_charge),
+            layout.EVENT_CHARGE_RENEWAL: (self.renewal_due.__contains__, self.renew_charge),
             layout.EVENT_IGNITION: (self._is_lit, self.ignite),
             layout.EVENT_MISFIRE: (self._has_misfired, self.misfire),
             layout.EVENT_PORT_CLOSING: (self._is_closing, self.close_ports),
@@ -323,9 +243,9 @@ class RunningEngine:
         burnable = min(c.fuel, c.air / chamber.fuel.air_fuel_ratio)
         c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
         c.mode, c.armed, c.t_ignition = layout.BURNING, 0.0, self.t
-        self.books[side].ignition_time = self.t
-        self.books[side].ignition_height = self.clearance(side)
-        self.books[side].combustion_duration = c.duration
+        self.totals[side].ignition_time = self.t
+        self.totals[side].ignition_height = self.clearance(side)
+        self.totals[side].combustion_duration = c.duration
         if c.duration <= 0.0:
             self.burn_at_once(side)
             self.end_combustion(side)
@@ -339,8 +259,8 @@ class RunningEngine:
         heat = c.heat * chamber.heat_release.burnt_fraction(1.0)
         energy, T = chamber.gas_properties.internal_energy, self.gas(side).T
         wanted = energy(T) + heat / c.mass
-        hottest = T + (wanted - energy(T)) / c.gas_constant
-        self.y[PRESSURE + side] *= brentq(lambda hot: energy(hot) - wanted, T, hottest) / T
+        max_temperature = T + (wanted - energy(T)) / c.gas_constant
+        self.y[PRESSURE + side] *= brentq(lambda hot: energy(hot) - wanted, T, max_temperature) / T
         self.y[QUADRATURES + layout.HEAT_RELEASED + side] += heat
 
     def end_combustion(self, side: int) -> None:
@@ -362,7 +282,7 @@ class RunningEngine:
         c.mode, c.armed = layout.OPEN, 0.0
         self.y[INTEGRAL + side] = 0.0
         self.y[[PRESSURE + side, MOTORED_PRESSURE + side]] = chamber.intake.pressure
-        self.books[side].exhaust_energy += before - self.internal_energy(side)
+        self.totals[side].exhaust_energy += before - self.internal_energy(side)
 
     def close_ports(self, side: int) -> None:
         """Compose the fresh charge at the state of the intake."""
@@ -372,7 +292,7 @@ class RunningEngine:
         before = self.internal_energy(side)
         c.mass = p * c.area * self.clearance(side) / (c.gas_constant * T)
         self._compose(side, p, T)
-        self.books[side].exhaust_energy += before - self.internal_energy(side)
+        self.totals[side].exhaust_energy += before - self.internal_energy(side)
 
     def renew_charge(self, side: int) -> None:
         """Put a fresh charge of the same mass on the curve through the midpoint state."""
@@ -380,15 +300,15 @@ class RunningEngine:
         assert isinstance(chamber, SealedCylinder)
         if c.mode == layout.BURNING:
             self.end_combustion(side)
-        self.spent.discard(side)
+        self.renewal_due.discard(side)
         before = self.internal_energy(side)
         p = chamber.pressure * (self.clearance(side) / c.half_stroke) ** -chamber.curve_exponent
         self._compose(side, p, p * c.area * self.clearance(side) / (c.mass * c.gas_constant))
-        self.books[side].exhaust_energy += before - self.internal_energy(side)
+        self.totals[side].exhaust_energy += before - self.internal_energy(side)
 
     def _compose(self, side: int, p: float, T: float) -> None:
         """Make the charge of what was retained and what is metered now."""
-        c, chamber, books = self.chambers[side], self.engine.chambers[side], self.books[side]
+        c, chamber, totals = self.chambers[side], self.engine.chambers[side], self.totals[side]
         assert isinstance(chamber, CombustionChamber)
         fuel_before, ratio = c.fuel, chamber.fuel.air_fuel_ratio
         c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
@@ -403,33 +323,33 @@ class RunningEngine:
         self.y[INTEGRAL + side] = 0.0
         self.y[[PRESSURE + side, MOTORED_PRESSURE + side]] = p
         exhausted = fuel_before + fresh - c.fuel
-        books.fresh_fuel_energy += fresh * chamber.fuel.lower_heating_value
-        books.exhaust_fuel_energy += exhausted * chamber.fuel.lower_heating_value
+        totals.fresh_fuel_energy += fresh * chamber.fuel.lower_heating_value
+        totals.exhaust_fuel_energy += exhausted * chamber.fuel.lower_heating_value
 
     # Dead centres.
 
     def turn(self) -> None:
-        """Dead centre: close the books of the stroke, let the regulators act, turn around."""
+        """Dead centre: write the row of the stroke, let the regulators act, turn around."""
         if math.isfinite(self.x_dead_centre) and self.t > self.t_dead_centre:
             self.strokes.append(self._stroke_row())
             self._regulate()
         elif math.isfinite(self.x_dead_centre):  # two at one instant: the translator is held
             self.machine.stroke = 0.0
         self.machine.direction = -self.machine.direction
-        self.spent = {
+        self.renewal_due = {
             side
             for side, chamber in enumerate(self.engine.chambers)
             if isinstance(chamber, SealedCylinder) and not self.is_expanding(side)
         }
         self.y[QUADRATURES:] = 0.0
         self.peaks[:] = 0.0
-        self.books = [StrokeBooks(), StrokeBooks()]
+        self.totals = [StrokeTotals(), StrokeTotals()]
         self.x_dead_centre, self.t_dead_centre = float(self.y[POSITION]), self.t
         self.record(layout.EVENT_DEAD_CENTRE, 0 if self.machine.direction > 0.0 else 1)
 
     def _regulate(self) -> None:
         """Hand the finished stroke to the laws that act at a dead centre."""
-        fuel = sum(books.fresh_fuel_energy for books in self.books)
+        fuel = sum(totals.fresh_fuel_energy for totals in self.totals)
         squared = float(self.y[QUADRATURES + layout.SPEED_SQUARED])
         stroke = Stroke(
             length=abs(float(self.y[POSITION]) - self.x_dead_centre),
@@ -472,7 +392,7 @@ class RunningEngine:
         row["spring_energy"] = self.engine.springs.energy(motion)
         row["equivalence_ratio"], row["intake_temperature"] = ratings(self.engine)
         for side in (0, 1):
-            for name, value in vars(self.books[side]).items():
+            for name, value in vars(self.totals[side]).items():
                 row[name][0, side] = value
             row["charge_mass"][0, side] = self.chambers[side].mass
             row["internal_energy"][0, side] = self.internal_energy(side)
@@ -486,65 +406,3 @@ class RunningEngine:
             return 0.0
         left = self.chambers[side].fuel - self.burnt_so_far(side)
         return left * chamber.fuel.lower_heating_value
-
-
-_TOTALS = (
-    "alternator_work",
-    "electrical_energy",
-    "electrical_squared",
-    "alternator_impulse",
-    "friction_work",
-    "speed_squared",
-)
-_TOTALS_PER_SIDE = ("heat_released", "heat_lost", "gas_work", "port_work")
-
-
-def _chamber_state(chamber: Chamber, held: Contents, sign: float, x: float) -> ChamberState:
-    """Chamber with the contents its start law gave it."""
-    area = math.pi * chamber.bore**2 / 4.0
-    p, T, full = chamber.filling
-    if isinstance(chamber, SealedCylinder):  # its charge is closed where it stands
-        p, full = held.pressure, chamber.half_stroke + sign * x
-        T = p * area * full / (held.mass * chamber.gas_properties.gas_constant)
-    ratio = 0.0
-    if isinstance(chamber, CombustionChamber) and held.fuel > 0.0:
-        ratio = chamber.fuel.air_fuel_ratio * held.fuel / held.air
-    return ChamberState(
-        sign=sign,
-        bore=chamber.bore,
-        area=area,
-        half_stroke=chamber.half_stroke,
-        wall_temperature=chamber.wall_temperature,
-        gas_constant=chamber.gas_properties.gas_constant,  # type: ignore[attr-defined]
-        mass=held.mass,
-        fuel=held.fuel,
-        air=held.air,
-        burnt=held.burnt,
-        equivalence_ratio=ratio,
-        p_closing=p,
-        T_closing=T,
-        V_closing=area * full,
-        mode=layout.OPEN if held.is_open else layout.CLOSED,
-        armed=float(held.armed and held.fuel > 0.0),
-    )
-
-
-def _stroke_before(engine: Engine, start: Initial, piston_area: float) -> Stroke:
-    """The stroke a start law takes to have passed before time zero."""
-    speed = start.mean_piston_speed
-    return Stroke(
-        length=start.stroke,
-        duration=start.stroke / speed if speed > 0.0 else math.inf,
-        maximum=engine.maximum_stroke,
-        half_maximum=0.5 * engine.maximum_stroke,
-        piston_area=piston_area,
-        fuel_energy=0.0,
-        speed_squared=0.0,
-    )
-
-
-def ratings(engine: Engine) -> tuple[float, float]:
-    """Equivalence ratio and intake temperature [K] the engine is built with."""
-    ratios = [getattr(chamber, "equivalence_ratio", 0.0) for chamber in engine.chambers]
-    side = rated_side(ratios)
-    return ratios[side], engine.chambers[side].filling.temperature

@@ -232,14 +232,17 @@ def scaled(engine, length, duration):
     )
 
 
-@pytest.mark.parametrize(("port", "most"), [(0.06, 60), (0.126, 60), (0.126, 0)])
+@pytest.mark.parametrize(("port", "max_maps"), [(0.06, 60), (0.126, 60), (0.126, 0)])
 @pytest.mark.parametrize(("length", "duration"), [(1.0, 20.0), (0.25, 0.1), (4.0, 4.0)])
-def test_engines_scaled_in_size_and_time_get_the_same_verdict(base, port, most, length, duration):
+def test_engines_scaled_in_size_and_time_come_to_the_same_outcome(
+    base, port, max_maps, length, duration
+):
     """Also those that are simulated: without any map they all are."""
     engine = base.replace(**{"heat_transfer.e": 0.0, "heat_transfer.a": 260.0})
     engine = engine.replace(port_closing=port)
     here, there = (
-        saleg.steady_state(one, most=most) for one in (engine, scaled(engine, length, duration))
+        saleg.steady_state(one, max_maps=max_maps)
+        for one in (engine, scaled(engine, length, duration))
     )
     assert there.status is here.status
     assert there.method == here.method

@@ -1,0 +1,158 @@
+"""State of the reference solver's engine: between two events, and totals of a stroke."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from saleg.engine import Chamber, CombustionChamber, Engine, SealedCylinder
+from saleg.engine.start import Contents, Initial
+from saleg.kernel import layout
+from saleg.laws.arguments import Stroke
+from saleg.simulation.initial_state import rated_side
+
+
+@dataclass
+class EngineState:
+    """What the right-hand side needs to know of the engine between two events.
+
+    Attributes
+    ----------
+    mass : float
+        Moving mass [kg].
+    motored : float
+        1 to integrate the motored pressures as well.
+    stroke, mean_piston_speed : float
+        Of the latest stroke [m, m/s].
+    load_weight, friction_held : float
+        What the laws of alternator and friction hold.
+    direction : float
+        +1 on the way right, -1 on the way left, 0 before the first movement.
+    """
+
+    mass: float
+    motored: float
+    stroke: float
+    mean_piston_speed: float
+    load_weight: float = 0.0
+    friction_held: float = 0.0
+    direction: float = 0.0
+
+
+@dataclass
+class ChamberState:
+    """What the right-hand side needs to know of a chamber between two events.
+
+    Attributes
+    ----------
+    sign : float
+        +1 if the chamber grows with x, else -1.
+    bore, area, half_stroke : float
+        Geometry [m, m^2, m].
+    wall_temperature, gas_constant : float
+        [K], [J/kg/K].
+    mass, fuel, air, burnt, equivalence_ratio : float
+        The charge [kg]; of all fuel to all air [-].
+    p_closing, T_closing, V_closing : float
+        Its state at port closing [Pa, K, m^3].
+    mode : float
+        Open, closed or burning.
+    armed : float
+        Whether the charge may ignite, as the layout has it.
+    t_ignition, duration, heat : float
+        Of the combustion: start and duration [s], heat if all that can burn does [J].
+    number : float
+        How many charges have been composed.
+    """
+
+    sign: float
+    bore: float
+    area: float
+    half_stroke: float
+    wall_temperature: float
+    gas_constant: float
+    mass: float
+    fuel: float
+    air: float
+    burnt: float
+    equivalence_ratio: float
+    p_closing: float
+    T_closing: float
+    V_closing: float
+    mode: float
+    armed: float
+    t_ignition: float = 0.0
+    duration: float = 1.0
+    heat: float = 0.0
+    number: float = 0.0
+
+
+@dataclass
+class StrokeTotals:
+    """What a chamber adds up from dead centre to dead centre.
+
+    Attributes
+    ----------
+    fresh_fuel_energy, exhaust_energy, exhaust_fuel_energy : float
+        [J].
+    ignition_time, ignition_height, combustion_duration : float
+        [s], [m], [s]; -1, 0 and 0 without ignition.
+    """
+
+    fresh_fuel_energy: float = 0.0
+    exhaust_energy: float = 0.0
+    exhaust_fuel_energy: float = 0.0
+    ignition_time: float = -1.0
+    ignition_height: float = 0.0
+    combustion_duration: float = 0.0
+
+
+def chamber_state(chamber: Chamber, held: Contents, sign: float, x: float) -> ChamberState:
+    """Chamber with the contents its start law gave it."""
+    area = math.pi * chamber.bore**2 / 4.0
+    p, T, full = chamber.reference_state
+    if isinstance(chamber, SealedCylinder):  # its charge is closed where it stands
+        p, full = held.pressure, chamber.half_stroke + sign * x
+        T = p * area * full / (held.mass * chamber.gas_properties.gas_constant)
+    ratio = 0.0
+    if isinstance(chamber, CombustionChamber) and held.fuel > 0.0:
+        ratio = chamber.fuel.air_fuel_ratio * held.fuel / held.air
+    return ChamberState(
+        sign=sign,
+        bore=chamber.bore,
+        area=area,
+        half_stroke=chamber.half_stroke,
+        wall_temperature=chamber.wall_temperature,
+        gas_constant=chamber.gas_properties.gas_constant,  # type: ignore[attr-defined]
+        mass=held.mass,
+        fuel=held.fuel,
+        air=held.air,
+        burnt=held.burnt,
+        equivalence_ratio=ratio,
+        p_closing=p,
+        T_closing=T,
+        V_closing=area * full,
+        mode=layout.OPEN if held.is_open else layout.CLOSED,
+        armed=float(held.armed and held.fuel > 0.0),
+    )
+
+
+def stroke_before(engine: Engine, start: Initial, piston_area: float) -> Stroke:
+    """The stroke a start law takes to have passed before time zero."""
+    speed = start.mean_piston_speed
+    return Stroke(
+        length=start.stroke,
+        duration=start.stroke / speed if speed > 0.0 else math.inf,
+        maximum=engine.maximum_stroke,
+        half_maximum=0.5 * engine.maximum_stroke,
+        piston_area=piston_area,
+        fuel_energy=0.0,
+        speed_squared=0.0,
+    )
+
+
+def ratings(engine: Engine) -> tuple[float, float]:
+    """Equivalence ratio and intake temperature [K] the engine is built with."""
+    ratios = [getattr(chamber, "equivalence_ratio", 0.0) for chamber in engine.chambers]
+    side = rated_side(ratios)
+    return ratios[side], engine.chambers[side].reference_state.temperature
