@@ -1,4 +1,4 @@
-"""What is demanded over time."""
+"""Power demanded over time."""
 
 from __future__ import annotations
 

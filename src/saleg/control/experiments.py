@@ -83,7 +83,7 @@ def motored(
         executor=executor,
         rtol=1e-6,
     )
-    most = engine.maximum_stroke
+    maximum = engine.maximum_stroke
     ports = min(
         getattr(side, "port_closing", math.inf) - side.half_stroke for side in engine.chambers
     )
@@ -92,7 +92,7 @@ def motored(
             "motor_frequency": pairs[0],
             "motor_amplitude": pairs[1],
             "stroke": table.stroke,
-            "relative_stroke": table.stroke / most,
+            "relative_stroke": table.stroke / maximum,
             "compression_ratio": table.compression_ratio,
             "opens_ports": 0.5 * table.stroke > ports,
             "opened_ports": table.farthest > ports,
@@ -286,8 +286,8 @@ def recovery_time(run: Run, at: float) -> float:
     """
     t = run.strokes["t"]
     length = np.abs(run.strokes["x_end"] - run.strokes["x_start"])
-    most = run.engine.maximum_stroke
-    ratio = (most + length) / (most - length)
+    maximum = run.engine.maximum_stroke
+    ratio = (maximum + length) / (maximum - length)
     before = np.flatnonzero(t <= at)
     if not len(before) or not t[-1] > at:
         return math.nan
@@ -306,7 +306,7 @@ def misfires(
     duration: float = 4.0,
     **settings: Any,
 ) -> pd.DataFrame:
-    """How many strokes without fuel an engine survives, with the motor and without it (5.3).
+    """Strokes without fuel an engine survives, with the motor and without it (5.3).
 
     Parameters
     ----------

@@ -72,7 +72,7 @@ def blamed(controller: Controller, memory: np.ndarray, signals: Signals, fault: 
 
 
 def _compiled_fault(course: Course) -> str:
-    """What a controller in the kernel has done wrong; it is asked once more, as Python."""
+    """Fault of a controller in the kernel, which is asked once more, as Python."""
     assert course.controller is not None
     E = course.state.engine[0]
     memory = E["memory"].reshape(layout.CONTROL_PARTS, layout.MEMORY)

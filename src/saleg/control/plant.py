@@ -116,7 +116,7 @@ class Plant:
 
     @property
     def signals(self) -> Signals:
-        """What is measured now; of the stroke, what the latest dead centre has shown."""
+        """Signals now; those of the stroke are of the latest dead centre."""
         return measured(self._course.state)
 
     def command(self, commands: Commands) -> None:
@@ -179,13 +179,13 @@ class Plant:
             self._code = code
 
     def _hold(self) -> None:
-        """Let the actuators move on where no command has been given since the last advance."""
+        """Move the actuators on where no command has been given since the last advance."""
         if self._commanded and self._latest is None:
             give(self._course, standing_orders(self._course.state), first=False)
         self._latest = None
 
     def run(self, fault: str = "") -> Run:
-        """What has been recorded so far.
+        """Run of all that has been recorded so far.
 
         Parameters
         ----------
@@ -201,7 +201,7 @@ class Plant:
         return self._course.run(status, message, self._replay())
 
     def _replay(self) -> ReplayOfCommands | None:
-        """How to see the last cycle again; it needs commands given at dead centres."""
+        """Replay of the last cycle; it needs commands given at dead centres."""
         plain = self._course.replay()
         if plain is None or not self._at_dead_centres:
             return None
@@ -245,7 +245,7 @@ def course_of(
 
 
 def give(course: Course, commands: Commands, first: bool) -> None:
-    """Let the actuators follow commands; on a change of the motor, note the event."""
+    """Pass commands to the actuators; on a change of the motor, note the event."""
     E, C = course.state.records
     was = float(E.motoring)
     elapsed = math.inf if first else float(E.t - E.t_command)

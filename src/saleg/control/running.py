@@ -301,7 +301,7 @@ def fired_at(run: Run) -> float:
 
 
 def motor_returns(run: Run) -> int:
-    """How often the motor came back after the engine had been fired.
+    """Number of times the motor came back after the engine had been fired.
 
     Parameters
     ----------

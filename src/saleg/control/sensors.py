@@ -1,4 +1,4 @@
-"""What stands between an engine and its controller: noise, delay, resolution."""
+"""Sensors between an engine and its controller: noise, delay, resolution."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class Measurement:
         self._dead_centre = (0.0, 0.0, 0.0)
 
     def of(self, true: Signals) -> Signals:
-        """What is measured of the signals of a dead centre.
+        """Signals of a dead centre as the sensors measure them.
 
         Between two dead centres there is nothing new to measure.
         """
@@ -141,7 +141,7 @@ def _rounded(value: float, step: float) -> float:
 
 
 def measured(state: State) -> Signals:
-    """What is measured at a state."""
+    """Signals at a state."""
     values = np.zeros(1, layout.SIGNALS_RECORD).view(np.recarray)
     write_signals(state.records[0], values[0])
     return Signals(*values[0].tolist())

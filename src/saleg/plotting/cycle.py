@@ -17,7 +17,7 @@ from saleg.plotting.style import (
     DOTTED,
     MARKERS,
     TRANSLATOR_COLOUR,
-    Stroke,
+    CurveLook,
     axes_or_new,
     marker,
 )
@@ -173,28 +173,28 @@ def draw_sides(
     cycle: Cycle,
     across: Quantity,
     up: Quantity,
-    strokes: dict[str, Stroke] = APART,
+    looks: dict[str, CurveLook] = APART,
     *,
     motored: bool = False,
 ) -> None:
     """Curves of both chambers with their events, and of the motored pressure if there is one."""
     dotted = motored and cycle.has_motored_pressure()
-    for side, stroke in strokes.items():
+    for side, look in looks.items():
         x, colour = cycle(across, side), COLOURS[side]
         if dotted:
             _draw_motored(ax, cycle, x, side)
-        look: dict[str, Any] = {"color": colour, "linestyle": stroke.line}
-        ax.plot(x, cycle(up, side), linewidth=stroke.width, label=side, **look)
+        line: dict[str, Any] = {"linestyle": look.line, "linewidth": look.width}
+        ax.plot(x, cycle(up, side), color=colour, label=side, **line)
     if dotted:
         ax.plot([], [], color="0.4", linestyle=DOTTED["left"], linewidth=1.8, label="motored")
-    scales = {side: stroke.marker_scale for side, stroke in strokes.items()}
+    scales = {side: look.marker_scale for side, look in looks.items()}
     _mark(ax, cycle, across, up, scales)
     ax.set_xlabel(across.label)
     ax.set_ylabel(up.label)
 
 
 def draw_translator(ax: Axes, cycle: Cycle, across: Quantity, up: Quantity) -> None:
-    """The one curve of the translator, with the events of both chambers."""
+    """Curve of the translator, with the events of both chambers."""
     ax.plot(cycle(across), cycle(up), color=TRANSLATOR_COLOUR, linewidth=1.6, label="_translator")
     marked = set(cycle.marked["side"])
     for side in (side for side in COLOURS if side in marked):

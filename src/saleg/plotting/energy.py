@@ -1,4 +1,4 @@
-"""Where the fuel's energy went: the flows, and a pie of them."""
+"""Energy flows of a cycle, and a pie of them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ FLOW_COLOURS = {
 
 
 def energy_flows(balance: EnergyBalance) -> dict[str, float]:
-    """Where the fuel's energy went [J]; what came from elsewhere is negative.
+    """Energy flows of a cycle by name [J]; what came from elsewhere than the fuel is negative.
 
     Parameters
     ----------

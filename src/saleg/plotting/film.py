@@ -147,7 +147,7 @@ class Film:
         return box(self.machine, crown, -0.5 * mm["bore"], head - crown, mm["bore"], **look)
 
     def _draw_machine(self, run: Run, slowness: float) -> None:
-        """What does not move: housing, stator, and the frame around it."""
+        """Draw the fixed parts: housing, stator, and the frame around them."""
         ax, sizes = self.machine, {side: dimensions(run.engine, side) for side in SIDES}
         for side, sign in SIDES.items():
             housing(ax, sizes[side], sign)
@@ -163,11 +163,11 @@ class Film:
         title = ax.set_title("", fontsize="medium")
         t = self.history["t"].to_numpy()
 
-        def tell(frame: int) -> None:
+        def retitle(frame: int) -> None:
             speed = f"slowed down {1.0 / slowness:.0f} times"
             title.set_text(f"{name}, t = {t[frame]:.4f} s, {speed}")
 
-        self.cursors.append(tell)
+        self.cursors.append(retitle)
 
     def _draw_pressures(self, ax: Axes, whole: pd.DataFrame, across: Quantity) -> None:
         """Pressures of both sides over time or volume, with a dot where they are now."""
@@ -190,14 +190,14 @@ class Film:
     def _follow(
         self, dot: Any, column: str, pressure: str, start: float, scale: float
     ) -> Callable[[int], Any]:
-        """What moves a dot along its curve."""
+        """Function that moves a dot along its curve."""
         x = scale * (self.history[column].to_numpy() - start)
         p = PRESSURE.scale * self.history[pressure].to_numpy()
         return lambda frame: dot.set_data([x[frame]], [p[frame]])
 
 
 def _shown(run: Run, window: tuple[float, float] | None) -> tuple[pd.DataFrame, bool]:
-    """What is shown, and whether its end is its beginning."""
+    """History that is shown, and whether it is a closed cycle."""
     if window is None:
         return last_cycle(run).history, True
     if len(window) != 2 or not all(is_number(t) for t in window):

@@ -72,5 +72,5 @@ def heat_flow_time(cycle: Cycle, ax: Axes) -> Axes:
 
 
 def _clear_of(cycle: Cycle, place: str) -> str:
-    """Where the pressures of a cycle with events leave room for the legend; any place without."""
+    """Place of the legend beside the pressures of a cycle with events; any place without."""
     return place if len(cycle.marked) else "best"

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Kind(NamedTuple):
-    """How points of one kind are drawn."""
+    """Label and look of points of one kind."""
 
     label: str
     look: dict[str, Any]

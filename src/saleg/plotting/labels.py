@@ -28,7 +28,7 @@ TIME = axis_label(readable("t", "s"))
 
 
 def column(table: pd.DataFrame, name: str, words: str = "") -> Readable:
-    """How a column of a table is read; its SI unit stands in ``table.attrs["units"]``."""
+    """Name and readable unit of a column; its SI unit stands in ``table.attrs["units"]``."""
     return readable(name, table.attrs["units"][name], words)
 
 

@@ -32,8 +32,8 @@ MARKERS = {
 }
 
 
-class Stroke(NamedTuple):
-    """How the curve of one side is drawn."""
+class CurveLook(NamedTuple):
+    """Look of the curve of one side."""
 
     line: Any
     width: float
@@ -44,9 +44,9 @@ class Stroke(NamedTuple):
 BELOW = 38.0
 
 #: Curves of both sides that lie apart.
-APART = {"left": Stroke("-", 1.6, 1.0), "right": Stroke("-", 1.6, 1.0)}
+APART = {"left": CurveLook("-", 1.6, 1.0), "right": CurveLook("-", 1.6, 1.0)}
 #: Curves that may coincide: both show, one through the gaps of the other.
-COINCIDING = {"left": Stroke("-", 2.4, 1.7), "right": Stroke((0, (4, 2)), 1.4, 1.0)}
+COINCIDING = {"left": CurveLook("-", 2.4, 1.7), "right": CurveLook((0, (4, 2)), 1.4, 1.0)}
 #: Motored pressures; dots of both sides alternate where the curves coincide.
 DOTTED: dict[str, Any] = {"left": (0, (1, 2.6)), "right": (1.8, (1, 2.6))}
 
@@ -124,7 +124,7 @@ def panels_or_new(
 
 
 def marker(shape: str, colour: str, scale: float = 1.0) -> dict[str, Any]:
-    """How a single point is drawn."""
+    """Look of a single point."""
     return {
         "marker": shape,
         "color": colour,
@@ -145,7 +145,7 @@ def zero_lines(ax: Axes, *, x: bool = False, y: bool = False) -> None:
 
 
 def from_zero(ax: Axes) -> None:
-    """Let the upward axis run from zero to above all that is drawn."""
+    """Set the upward axis from zero to above all that is drawn."""
     ax.set_ylim(0.0, 1.05 * ax.dataLim.ymax)
 
 
@@ -173,7 +173,7 @@ def finish(ax: Axes, title: str, legend: str | None, columns: int = 1) -> Axes:
 
 
 def legend_below(panels: Iterable[Axes], columns: int = 4) -> None:
-    """One legend for all panels of a figure, below them; every text once."""
+    """Draw one legend for all panels of a figure, below them; every text once."""
     axes, handles = list(panels), dict[str, Any]()
     for panel in axes:
         for handle, text in zip(*panel.get_legend_handles_labels(), strict=True):

@@ -236,7 +236,7 @@ def _cloud(
 
 
 def _count(table: pd.DataFrame) -> str:
-    """How many designs have a stable orbit, or any where stability was not asked for."""
+    """Number of designs with a stable orbit, or with any where stability was not asked for."""
     orbits = _orbits(table)
     if "stable" not in table:
         return f"{len(orbits)} of {len(table)} designs have an orbit, stability not examined"

@@ -150,7 +150,7 @@ def _rows(rows: list[np.ndarray], dtype: np.dtype) -> np.ndarray:
 
 
 def _final_state(running: RunningEngine) -> State:
-    """What the outcome depends on at a run's end, in the records it reads."""
+    """State at the end of a run, in the records its outcome is read from."""
     E = np.zeros(1, layout.ENGINE_RECORD)
     E["t"], E["stroke"] = running.t, running.machine.stroke
     E["maximum_stroke"] = running.engine.maximum_stroke

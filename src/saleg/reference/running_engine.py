@@ -135,7 +135,7 @@ class RunningEngine:
         return c.half_stroke + c.sign * float(self.y[POSITION])
 
     def beyond_port(self, side: int) -> float:
-        """How far the crown is beyond its ports [m]; minus infinity without ports."""
+        """Distance of the crown beyond its ports [m]; minus infinity without ports."""
         chamber = self.engine.chambers[side]
         if not isinstance(chamber, Cylinder):
             return -math.inf
@@ -366,7 +366,7 @@ class RunningEngine:
         self._hold(stroke, self.machine.load_weight, self.machine.friction_held)
 
     def _hold(self, stroke: Stroke, load: float = -1.0, friction: float = -1.0) -> None:
-        """Let alternator and friction choose what they hold until the next dead centre."""
+        """Hand a stroke to alternator and friction, which act at dead centres."""
         self.machine.load_weight = self.engine.alternator.at_dead_centre(load, stroke)
         self.machine.friction_held = self.engine.friction.at_dead_centre(friction, stroke)
 

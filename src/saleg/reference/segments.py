@@ -258,7 +258,7 @@ def _ends_of_combustion(running: RunningEngine) -> list[float]:
 
 
 def _before_first_movement(running: RunningEngine, end: float, solver: Solver) -> float:
-    """Where to stop and look whether the translator has begun to move [s]."""
+    """Time at which to look whether the translator has begun to move [s]."""
     if running.machine.direction != 0.0:
         return end
     return running.t + max(running.t, 1e-3 * solver.natural_time)

@@ -14,7 +14,7 @@ from saleg.simulation.initial_state import rated_side
 
 @dataclass
 class EngineState:
-    """What the right-hand side needs to know of the engine between two events.
+    """State of the engine between two events, as the right-hand side reads it.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class EngineState:
 
 @dataclass
 class ChamberState:
-    """What the right-hand side needs to know of a chamber between two events.
+    """State of a chamber between two events, as the right-hand side reads it.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class ChamberState:
 
 @dataclass
 class StrokeTotals:
-    """What a chamber adds up from dead centre to dead centre.
+    """Totals of a chamber from dead centre to dead centre.
 
     Attributes
     ----------

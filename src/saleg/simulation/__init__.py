@@ -1,4 +1,4 @@
-"""One run of an engine: from its start to results that only read."""
+"""Simulation of an engine: from its start to results that only read."""
 
 from saleg.simulation.integration import simulate
 from saleg.simulation.performance import EnergyBalance, Performance

@@ -88,7 +88,7 @@ class Course:
 
     @property
     def commanded(self) -> Commands:
-        """What a controller in the kernel has asked for last."""
+        """Latest commands of a controller in the kernel."""
         return Commands(*self._arguments.control.commands[0].tolist())
 
     @property
@@ -130,13 +130,13 @@ class Course:
         return int(code)
 
     def replay(self) -> Replay | None:
-        """How to see the last full cycle again; None without one."""
+        """Replay of the last full cycle; None without one."""
         if self.snapshots.engine["mass"][1] == 0.0 or self.detail.last_stroke < math.inf:
             return None
         return Replay(self.engine, self.snapshots, self.settings, self.controller)
 
     def run(self, status: Status, message: str, replay: Callable[[], Run] | None = None) -> Run:
-        """What has been recorded, as a run."""
+        """Run of all that has been recorded."""
         return Run(
             engine=self.engine,
             status=status,

@@ -181,7 +181,7 @@ def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
 
 
 def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:
-    """How well the last cycle repeats the ones before it, as the thesis measures it.
+    """Repeatability of the last cycle: change against those before it, as the thesis measures it.
 
     Parameters
     ----------

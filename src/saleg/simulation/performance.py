@@ -21,7 +21,7 @@ nan = math.nan
 
 
 class Figure(NamedTuple):
-    """What a field of :class:`Performance` is called in a report, and its unit.
+    """Unit, name and digits of a field of :class:`Performance` in reports.
 
     Attributes
     ----------
@@ -204,7 +204,7 @@ UNITS = {name: figure.unit for name, figure in FIGURES.items()}
 
 @dataclass(frozen=True)
 class EnergyBalance:
-    """Where the energy went between two dead centres; joules.
+    """Energy balance between two dead centres; joules.
 
     Every term is integrated or evaluated by itself, none is a difference that makes the balance
     close; `residual` is what is left over.

@@ -1,4 +1,4 @@
-"""Where a run left the ranges its laws were made for."""
+"""Exits of a run from the ranges its laws were made for."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from saleg.laws import Law
 from saleg.laws.base import Validity
 
 #: Units of what a law may be valid for.
-UNITS = {
+VALIDITY_UNITS = {
     "temperature": "K",
     "pressure": "Pa",
     "mean_piston_speed": "m/s",
@@ -68,7 +68,7 @@ def _rows(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> Iterator[
 def _exit(
     law: Law, validity: Validity, values: np.ndarray, weights: np.ndarray
 ) -> dict[str, Any] | None:
-    """What a law saw of a quantity, if it left its range."""
+    """Range of values a law met, if it left the one it was made for."""
     at_work = weights > 0.0
     if not at_work.any():
         return None
@@ -79,7 +79,7 @@ def _exit(
     return {
         "law": type(law).__name__,
         "quantity": validity.quantity,
-        "unit": UNITS[validity.quantity],
+        "unit": VALIDITY_UNITS[validity.quantity],
         "low": validity.low,
         "high": validity.high,
         "seen_low": float(values[at_work].min()),
@@ -120,4 +120,6 @@ def _values(
         )
     if quantity == "equivalence_ratio":
         return float(engine.chambers[side].equivalence_ratio)  # type: ignore[attr-defined]
-    raise ValueError(f"a law cannot be valid for '{quantity}': there are {', '.join(UNITS)}")
+    raise ValueError(
+        f"a law cannot be valid for '{quantity}': there are {', '.join(VALIDITY_UNITS)}"
+    )

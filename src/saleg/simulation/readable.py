@@ -75,7 +75,7 @@ WORDS = {
 
 
 class Readable(NamedTuple):
-    """How a quantity is read.
+    """Name and readable unit of a quantity.
 
     Attributes
     ----------
@@ -102,7 +102,7 @@ class Readable(NamedTuple):
 
 
 def readable(name: str, unit: str, words: str = "") -> Readable:
-    """How a quantity is read.
+    """Name and readable unit of a quantity.
 
     Parameters
     ----------

@@ -70,12 +70,12 @@ class Run:
 
     @cached_property
     def cycles(self) -> pd.DataFrame:
-        """One row per cycle, left dead centre to left dead centre; units in ``.attrs``."""
+        """Table of the cycles, one row each, left dead centre to left dead centre; units in ``.attrs``."""
         return cycle_table(self.engine, self.strokes)
 
     @cached_property
     def dead_centres(self) -> pd.DataFrame:
-        """One row per stroke: what its end shows a controller, and what was commanded during it.
+        """Table of the strokes, one row each: signals at its end, and commands during it.
 
         Units in ``.attrs``.
         """
@@ -83,12 +83,12 @@ class Run:
 
     @cached_property
     def events(self) -> pd.DataFrame:
-        """One row per event: when, what, which side, and the state there; units in ``.attrs``."""
+        """Table of the events, one row each: time, kind, side and state; units in ``.attrs``."""
         return event_table(self.event_rows, EVENT_NAMES)
 
     @cached_property
     def history(self) -> pd.DataFrame | None:
-        """One row per recorded step, two at an event (before and after); None if not asked for."""
+        """Table of the recorded steps, two rows at an event (before and after); None if not kept."""
         return None if self.history_rows is None else history_table(self.history_rows)
 
     @cached_property
@@ -98,7 +98,7 @@ class Run:
 
     @cached_property
     def range_exits(self) -> list[dict[str, Any]]:
-        """Where the last full cycle left the ranges its laws were made for; empty without one.
+        """Exits of the last full cycle from the ranges its laws were made for; empty without one.
 
         See :func:`.ranges.range_exits`; ``pandas.DataFrame(run.range_exits)`` is a table.
         """

@@ -90,7 +90,7 @@ class Settings:
         return wrong
 
     def described(self) -> dict[str, Any]:
-        """What a run says of how it was integrated."""
+        """Method and tolerance, or order and step, as a run names them."""
         motored = {"motored_pressure": self.motored_pressure}
         if self.adaptive:
             return {"method": "adaptive", "rtol": self.rtol, **motored}

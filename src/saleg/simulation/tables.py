@@ -89,7 +89,7 @@ HISTORY_UNITS = {
 
 
 def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
-    """One row per full cycle, left dead centre to left dead centre."""
+    """Table of the full cycles, one row each, left dead centre to left dead centre."""
     import pandas as pd
 
     out, back = full_cycles(strokes)
@@ -135,16 +135,16 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
 
 
 def dead_centre_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
-    """One row per stroke, at the dead centre that ends it."""
+    """Table of the strokes, one row each, at the dead centre that ends it."""
     import pandas as pd
 
     length = np.abs(strokes["x_end"] - strokes["x_start"])
-    most = engine.maximum_stroke
+    maximum = engine.maximum_stroke
     columns = {
         "t": strokes["t"],
         "x": strokes["x_end"],
         "stroke": length,
-        "compression_ratio": (most + length) / (most - length),
+        "compression_ratio": (maximum + length) / (maximum - length),
         "frequency": 0.5 / strokes["duration"],
         "power": strokes["electrical_energy"] / strokes["duration"],
         "motoring": strokes["motoring"] > 0.0,
@@ -162,7 +162,7 @@ def dead_centre_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
 
 
 def event_table(rows: np.ndarray, names: tuple[str, ...]) -> pd.DataFrame:
-    """One row per event."""
+    """Table of the events, one row each."""
     import pandas as pd
 
     frame = pd.DataFrame(
@@ -187,7 +187,7 @@ def _named(codes: np.ndarray, names: tuple[str, ...]) -> Any:
 
 
 def history_table(rows: np.ndarray) -> pd.DataFrame:
-    """One row per recorded instant; shares its memory with the records."""
+    """Table of the recorded instants, one row each; shares its memory with the records."""
     import pandas as pd
 
     names, units = [], {}

@@ -60,7 +60,7 @@ class NoBranch(SalegError, ValueError):
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """One steady state of a branch.
+    """Steady state on a branch.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ class Branch:
 
     @property
     def table(self) -> pd.DataFrame:
-        """One row per point: parameter, figures, stability; units in ``.attrs``."""
+        """Table of the points, one row each: parameter, figures, stability; units in ``.attrs``."""
         import pandas as pd
 
         rows = [
@@ -267,7 +267,7 @@ class _Follower:
         return ReturnMap.of(engine, state.copy(), FINE, self.mirrored), state
 
     def residual(self, s: float, z: np.ndarray, like: State) -> np.ndarray:
-        """How far a vector is from its image."""
+        """Residual of the map: image of a vector less the vector."""
         return_map, state = self.return_map(s, like)
         return return_map.image(state, z) - z
 
@@ -307,7 +307,7 @@ class _Follower:
     def advance(
         self, s: float, z: np.ndarray, like: State, tangent: np.ndarray, length: float
     ) -> Any:
-        """One step along the tangent, cut where it would pass the end, and corrected."""
+        """Step along the tangent, cut where it would pass the end, and corrected."""
         step = length / max(abs(tangent[-1]), 0.05)
         fixed = tangent
         if tangent[-1] > 0.0 and s + step * tangent[-1] >= 1.0:

@@ -1,4 +1,4 @@
-"""Keywords that go on under their earlier names, with a warning."""
+"""Earlier names of keywords, accepted with a warning."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ R = TypeVar("R")
 
 
 def renamed_keywords(**names: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Let a function be called with earlier names of its keywords.
+    """Decorator that accepts earlier names of keywords.
 
     Parameters
     ----------

@@ -81,7 +81,7 @@ class NoReturn(Exception):
 
 
 class Search(NamedTuple):
-    """How a search for a fixed point, or a cycle from a given state, has ended.
+    """End of a search for a fixed point, or of a cycle from a given state.
 
     Attributes
     ----------
@@ -221,7 +221,7 @@ class ReturnMap:
         self._do(CYCLE, _iterates(self.vector(self.state)))
 
     def cycle(self, start: State, z: np.ndarray) -> Search:
-        """One whole cycle from a vector, recorded."""
+        """Whole cycle from a vector, recorded."""
         self.reset(start)
         return self._do(CYCLE, _iterates(z))
 

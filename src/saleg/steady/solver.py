@@ -55,7 +55,7 @@ QUICK_STEPS = 1000
 
 
 class Effort(enum.Enum):
-    """How much work a search for a steady state may be.
+    """Work that a search for a steady state may be.
 
     Attributes
     ----------
@@ -116,7 +116,7 @@ class SteadyState:
 
     @cached_property
     def orbit(self) -> Run | None:
-        """One cycle with its whole history and all peaks located; None without a steady state."""
+        """The cycle with its whole history and all peaks located; None without a steady state."""
         return self.replay() if self.replay is not None else None
 
     @cached_property
@@ -302,7 +302,7 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
 
 
 def starts(engine: Engine) -> Iterator[Start]:
-    """Where to look from: near the target stroke, deeper and less deep, and the engine's own.
+    """Starts of the search: near the target stroke, deeper and less deep, and the engine's own.
 
     They begin on the side with more fuel, whichever that is.
     """
@@ -331,7 +331,7 @@ def converged(found: Search, tolerance: float) -> bool:
 def result_of(
     return_map: ReturnMap, spent: int, evaluations: int, residual: float, method: str, rtol: float
 ) -> SteadyState:
-    """What a converged map has found."""
+    """Steady state a converged map has found."""
     return_map.begin_on_the_left()
     engine, strokes = return_map.engine, return_map.strokes[:2].copy()
     snapshots = Snapshots(*(part.copy() for part in return_map.snapshots))
@@ -365,7 +365,7 @@ def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
 
 
 def not_found(engine: Engine, spent: int, evaluations: int, why: str) -> SteadyState:
-    """What a quick search has to say where it has found nothing."""
+    """Result of a quick search that has found nothing."""
     return SteadyState(
         engine=engine,
         status=Status.NOT_FOUND,

@@ -97,7 +97,7 @@ def map_multipliers(replay: Replay, mirrored: bool) -> np.ndarray:
 
 
 def judged(own: np.ndarray, mirrored: bool, period: float) -> Stability:
-    """What the multipliers of a map mean; those of a mirrored half cycle count twice a cycle."""
+    """Stability by the multipliers of a map; those of a mirrored half cycle count twice a cycle."""
     cycle = own**2 if mirrored else own
     if not len(own):
         return Stability(cycle, "stable", math.inf, 0.0)

@@ -87,21 +87,21 @@ def _limit(ax: Axes, name: str, time: np.ndarray, drawn: np.ndarray) -> None:
         ax.set_ylim(0.0, 1.0)
         return
     top, bottom = float(known.max()), float(known.min())
-    most, end = _bounds(name, known)
-    if top > most > 0.0:
+    limit, end = _bounds(name, known)
+    if top > limit > 0.0:
         at = int(np.nanargmax(drawn > end))
         note: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": "small"}
         where, text = ax.get_xaxis_transform(), f"up to {top:.3g} \N{UPWARDS ARROW} "
         ax.text(time[at], 0.97, text, transform=where, color=RIGHT_COLOUR, **note)
         top = end
     if name not in NOT_FROM_ZERO:
-        bottom = min(max(bottom, -most), 0.0)
+        bottom = min(max(bottom, -limit), 0.0)
     room = max(0.06 * (top - bottom), 0.01 * abs(top)) or 0.5
     ax.set_ylim(bottom - room * (bottom != 0.0), top + room)
 
 
 def _bounds(name: str, known: np.ndarray) -> tuple[float, float]:
-    """What values have run away beyond, and where the axis ends if some have."""
+    """Value beyond which a curve has run away, and end of the axis if it has."""
     if name == "compression_ratio":
         return MAX_RATIO
     usual = float(np.percentile(np.abs(known), 95.0))

@@ -152,7 +152,7 @@ def _around_dead_centre(study: Study, up: Quantity, ax: Axes | None) -> Axes:
 
 
 def _drawn(study: Study, ax: Axes) -> Iterator[tuple[dict[str, Any], Cycle]]:
-    """How to draw which cycles; runs without one are named in the legend only."""
+    """Look and cycle of every case; runs without a cycle are named in the legend only."""
     from saleg.studies.sensitivity import is_stable
 
     drawn = 0

@@ -111,7 +111,7 @@ def regulator_gains(
 
 
 class _Across(NamedTuple):
-    """What the axis along which a study runs shows."""
+    """Axis along which a study runs."""
 
     column: str
     label: str
@@ -119,7 +119,7 @@ class _Across(NamedTuple):
 
 
 class _Line(NamedTuple):
-    """One line of a figure of trends."""
+    """Line of a figure of trends."""
 
     label: str
     colour: Any
@@ -137,7 +137,7 @@ def _across(table: pd.DataFrame) -> _Across:
 
 
 def _columns(rows: pd.DataFrame, across: str, figure: str) -> tuple[np.ndarray, ...]:
-    """What runs across, the figure (NaN of an engine that stands still), what is stable."""
+    """Values across, the figure (NaN of an engine that stands still), and flags of stability."""
     figures = rows[figure].where(rows["frequency"] > 0.0)
     return rows[across].to_numpy(float), figures.to_numpy(float), rows["stable"].to_numpy(bool)
 
