@@ -25,7 +25,7 @@ ASSUMPTIONS = {
     "heat_release.combustion_duration": (1.0e-3, 1.5e-3),
     "ignition.k": (500.0, 900.0),
     "friction.factor": (10.0, 17.0),
-    "masses.alternator.density": (750.0, 1000.0),
+    "masses.alternator.density": (750.0, 900.0),
 }
 BOX = {
     "bore": (0.04, 0.075),
@@ -42,10 +42,10 @@ def main(folder: Path = PICTURES) -> None:
     found = saleg.design.evaluate()
     print(found)
     print(found.masses, f"error {found.mass_error:.1e}")
-    assert abs(found.moving_mass / 2.39 - 1.0) < 0.03
-    roomy = saleg.design.evaluate(Design(masses=MassModel.with_crankcase()))
+    assert abs(found.moving_mass / 2.39 - 1.0) < 0.006
+    printed = saleg.design.evaluate(Design(masses=MassModel.as_printed()))
     found.draw().figure.savefig(folder / "design_engine.png", dpi=120)
-    roomy.draw().figure.savefig(folder / "design_engine_roomy.png", dpi=120)
+    printed.draw().figure.savefig(folder / "design_engine_printed.png", dpi=120)
     drawings.alternator_map()[0].figure.savefig(folder / "design_alternator.png", dpi=80)
     drawings.natural_frequency().figure.savefig(folder / "design_springs.png", dpi=80)
 
@@ -56,12 +56,12 @@ def main(folder: Path = PICTURES) -> None:
     plots.panels(lengths, "half_stroke")[0].figure.savefig(folder / "sweep_length.png", dpi=80)
     border = bores.bore[bores.stable].min()
     print(f"stable from a bore of {1e3 * border:.1f} mm")
-    assert 0.046 < border < 0.050
+    assert 0.045 < border < 0.050
 
     # Appendix C: a cloud of designs over a dimensionless group, and a map of three columns.
     cloud = sweep.run(sweep.sobol(BOX, 512, seed=2))
     print(cloud.status.value_counts().to_dict())
-    plots.groups(cloud, "stroke_to_bore")[0].figure.savefig(folder / "sweep_groups.png", dpi=80)
+    plots.groups(cloud, "stroke_to_bore")[0].figure.savefig(folder / "sweep_groups.png", dpi=56)
     ax = plots.design_map(cloud, "stroke_to_bore", "frequency", "power_density")
     ax.figure.savefig(folder / "sweep_map.png", dpi=80)
 

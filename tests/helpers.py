@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from saleg import BounceChamber, Engine, Translator
+from saleg import BounceChamber, Engine, Translator, sweep
 from saleg.engine.start import CompressedCharge
 from saleg.laws import ConstantGamma, LinearLoad, LinearSprings, ViscousFriction
 from saleg.simulation.initial_state import prepare
@@ -69,3 +69,29 @@ def cycle_figures(engine, **settings):
 
 def area(bore):
     return math.pi * bore**2 / 4.0
+
+
+#: Inputs of a sweep of six designs.
+SMALL_SWEEP = {"bore": [0.060, 0.062, 0.064], "egr": [0.1, 0.2]}
+
+
+def swept_line(name, low, high, count=25):
+    """A sweep of one input around the base case."""
+    return sweep.run(sweep.grid({name: np.linspace(low, high, count)}))
+
+
+def rises(values):
+    return bool((np.diff(values) > 0.0).all())
+
+
+def falls(values):
+    return bool((np.diff(values) < 0.0).all())
+
+
+def border(table, name):
+    """Where the largest multiplier passes one, by linear interpolation in its logarithm."""
+    x, y = table[name].to_numpy(), np.log(table.largest_multiplier.to_numpy())
+    at = np.flatnonzero(np.sign(y[1:]) != np.sign(y[:-1]))
+    assert len(at) == 1
+    i = at[0]
+    return x[i] - y[i] * (x[i + 1] - x[i]) / (y[i + 1] - y[i])

@@ -13,7 +13,8 @@ import pytest
 import saleg
 from saleg import InvalidEngine, LawError, UnknownPath
 from saleg.cli import main
-from saleg.compiler.compose import kernel_for, methods_text
+from saleg.compiler.compiled_engine import kernel_for
+from saleg.compiler.text import methods_text
 from saleg.engine.start import AtRest, MidpointVelocity
 from saleg.errors import StartError
 from saleg.laws import Friction, InstantExchange, LinearSprings, Springs

@@ -16,8 +16,7 @@ from saleg import BounceChamber, Engine, InvalidEngine, SalegError, SalegWarning
 from saleg.control import Demand, Sensors
 from saleg.design.designs import NAMES as PARAMETERS
 from saleg.engine.start import MidpointVelocity
-from saleg.errors import PathsClash, WrongQuantity
-from saleg.export import RunFileError
+from saleg.errors import PathsClash, RunFileError, WrongQuantity
 from saleg.laws import HeatedIntake, LinearSprings, PreloadedSprings, Wiebe
 from saleg.quantities import quantity, series
 from saleg.sweep.files import read as read_sweep
@@ -243,16 +242,19 @@ def test_a_part_of_a_sweep_that_nests_too_deeply_is_done_again(base, tmp_path):
 
 
 def test_a_folder_in_place_of_a_cached_kernel(tmp_path):
-    from saleg.compiler.cache import kept
+    from saleg.compiler.module import load
 
-    path = tmp_path / "saleg_kernel_0.py"
-    assert kept(path, "x = 1\n")
+    first = load("x = 1\n", "kernel", tmp_path)
+    path = next(tmp_path.glob("*.py"))
+    assert first.lock == path.with_suffix(".lock")
     for name in (path, path.with_suffix(".lock")):
-        name.unlink(missing_ok=True)
+        name.unlink()
         name.mkdir()
-        with pytest.warns(RuntimeWarning, match=f"{name.name} is a folder"):
-            assert not kept(path, "x = 1\n")
+        again = load("x = 1\n", "kernel", tmp_path)
+        assert again.module.x == 1
+        assert again.lock.is_file()
         name.rmdir()
+        name.touch()
 
 
 # Two names for one number.

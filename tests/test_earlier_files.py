@@ -7,6 +7,7 @@ import pytest
 import saleg
 from helpers import ROOT
 from saleg import sweep
+from saleg.design import Design, MassModel
 
 EARLIER = ROOT / "tests" / "data" / "earlier"
 RUNS = sorted(path.name for path in EARLIER.glob("run_*"))
@@ -30,7 +31,11 @@ def test_engine_files_load():
 @pytest.mark.parametrize(
     ("name", "points", "swept"),
     [
-        ("sweep_designs", {"bore": [0.058, 0.062, 0.066], "equivalence_ratio": [0.4, 0.6]}, None),
+        (
+            "sweep_designs",
+            {"bore": [0.058, 0.062, 0.066], "equivalence_ratio": [0.4, 0.6]},
+            Design(masses=MassModel.as_printed()),  # the default of its time
+        ),
         ("sweep_engine", {"bore": [0.060, 0.064]}, saleg.machines.thesis_base()),
     ],
 )

@@ -35,13 +35,14 @@ from saleg.simulation.integration import simulate
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.status import Status
-from saleg.steady.solver import SteadyState, steady_state
+from saleg.steady.solver import Effort, SteadyState, steady_state
 from saleg.version import __version__
 
 __all__ = [
     "BounceChamber",
     "Controller",
     "Cylinder",
+    "Effort",
     "EnergyBalance",
     "Engine",
     "EngineFileError",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import reprlib
 from collections.abc import Iterable
 from typing import Any, NamedTuple
@@ -90,6 +91,14 @@ class EngineFileError(SalegError, ValueError):
     """An engine file that cannot be read; names file and key."""
 
 
+class RunFileError(SalegError, OSError):
+    """A file or folder of a run that cannot be written or read; says which and why."""
+
+
+class SweepError(SalegError, ValueError):
+    """A sweep that makes no sense, or does not belong to its folder."""
+
+
 class LawError(SalegError, TypeError):
     """A law that cannot be compiled; names law, method and the offending name."""
 
@@ -100,3 +109,9 @@ class ControllerError(SalegError, ValueError):
 
 class StartError(SalegError, ArithmeticError):
     """An engine whose laws cannot be evaluated where it starts."""
+
+
+def nearest(name: object, known: Iterable[str]) -> str:
+    """Text that suggests the known names most like a wrong one; empty if there is none."""
+    close = difflib.get_close_matches(str(name), list(dict.fromkeys(known)), n=3, cutoff=0.5)
+    return f"; did you mean {' or '.join(map(repr, close))}?" if close else ""

@@ -12,6 +12,7 @@ class Status(enum.Enum):
     STEADY = "steady"
     IDLING = "idling"
     UNSTEADY = "unsteady"
+    NOT_FOUND = "not found"
     STALLED = "stalled"
     HEAD_CONTACT = "head contact"
     STEP_FAILURE = "step failure"

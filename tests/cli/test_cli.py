@@ -277,11 +277,11 @@ def test_ctrl_c_while_writing_keeps_the_earlier_run(written, tmp_path, capsys, m
     write = csv_folder.write_table
     count = []
 
-    def interrupted(path, frame):
-        count.append(path)
+    def interrupted(file, columns):
+        count.append(file)
         if len(count) == 3:
             raise KeyboardInterrupt
-        write(path, frame)
+        write(file, columns)
 
     monkeypatch.setattr(csv_folder, "write_table", interrupted)
     assert run("thesis-base", "--duration", "0.1", "--out", str(target), "--force") == 130

@@ -2,30 +2,30 @@
 
 import json
 import os
-import re
 import subprocess
 import sys
 import textwrap
-from pathlib import Path
 
 import pytest
 
 import saleg
-from saleg.compiler.cache import locked, usable_folder, write_atomically
+from saleg.compiler.cache import usable_folder
+from saleg.files.atomic import write_text
+from saleg.files.lock import locked
 
 REPORT = """
 import json, sys
 import saleg
-from saleg.compiler.compose import kernel_for
+from saleg.compiler.compiled_engine import kernel_for
 if whole:
     run = saleg.simulate(engine, 0.06, rtol=1e-6)
-    stats = kernel_for(engine).run_on.stats
+    stats = kernel_for(engine).module.run_on.stats
     kernel = kernel_for(engine)
 else:
     from saleg import reference
     run = reference.simulate(engine, 0.06, rtol=1e-6, jitted=True)
     kernel = kernel_for(engine, ("plain_rhs",))
-    stats = kernel.rates_of_records.stats
+    stats = kernel.module.rates_of_records.stats
 print(json.dumps({
     "hits": sum(stats.cache_hits.values()),
     "misses": sum(stats.cache_misses.values()),
@@ -214,14 +214,14 @@ def test_cache_folder_is_private(tmp_path, monkeypatch):
 
 def test_files_are_written_whole_or_not_at_all(tmp_path, monkeypatch):
     target = tmp_path / "file.py"
-    write_atomically(target, "whole")
+    write_text(target, "whole")
 
     def fail(*_):
         raise OSError("disk full")
 
     monkeypatch.setattr(os, "replace", fail)
     with pytest.raises(OSError, match="disk full"):
-        write_atomically(target, "half")
+        write_text(target, "half")
     assert target.read_text() == "whole"
     assert list(tmp_path.iterdir()) == [target]
 
@@ -295,7 +295,7 @@ def test_law_of_a_notebook_cell_runs_compiled(tmp_path):
     result = shell.run_cell(textwrap.dedent(cell))
     result.raise_error()
     run = shell.user_ns["run"]
-    from saleg.compiler.compose import kernel_for
+    from saleg.compiler.compiled_engine import kernel_for
     kernel = kernel_for(run.engine)
     assert kernel.module.__file__.endswith(".py"), kernel.module.__file__
     assert run.performance.power > 2e4
@@ -306,11 +306,3 @@ def test_law_of_a_notebook_cell_runs_compiled(tmp_path):
     '''
     out = script(tmp_path, code, tmp_path / "cache")
     assert out.stdout.strip().endswith("fine"), out.stdout + out.stderr
-
-
-def test_composed_text_holds_the_law_as_written(base):
-    from saleg.compiler.compose import kernel_for
-
-    text = Path(kernel_for(base).module.__file__).read_text()
-    assert re.search(r"def engine_springs_force\(self, motion\)", text)
-    assert "from saleg" not in text

@@ -1,4 +1,4 @@
-"""Control: the experiments of Chapter 5, controllers in Python and compiled, plant and sensors."""
+"""Control: experiments, controllers in Python and compiled, plant and sensors."""
 
 import dataclasses
 import math
@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import saleg
-from printed import check_table_13
 from saleg import Controller, Status, control
 from saleg.compiler.controllers import control_of
 from saleg.control import Demand, Plant, Sensors, generator, motor
@@ -49,86 +48,7 @@ def started(transient):
     return control.start_up(transient, 38.0, duration=2.0)
 
 
-# --- what the dissertation shows
-
-
-def test_the_started_engine_runs_as_table_13_says(started):
-    assert started.status is Status.STEADY
-    check_table_13(started.performance)
-
-
-@pytest.mark.parametrize(("base", "seen"), [(30.0, 2.25), (35.0, 1.20), (38.0, 0.50)])
-def test_start_up_passes_the_threshold_in_time(transient, base, seen):
-    """Fig. 99, and steady within half a second."""
-    run = control.start_up(transient, base, duration=seen + 0.7)
-    fired = control.fired_at(run)
-    assert fired == pytest.approx(seen, abs=3 * HALF_CYCLE)
-    table = run.dead_centres
-    assert table.motoring[table.t <= fired].all()
-    late = table[table.t > fired + 0.5]
-    assert not late.motoring.any()
-    assert np.ptp(late.compression_ratio) < 0.01
-    assert late.compression_ratio.mean() == pytest.approx(17.9, rel=0.01)
-
-
-def test_start_up_with_the_literal_sine(transient):
-    """The sine of the present frequency times all of the time passes just before two seconds."""
-    search = ResonanceSearch(literal_phase=1.0)
-    run = control.start_up(transient, 30.0, controller=Controller(motor_control=search))
-    assert control.fired_at(run) == pytest.approx(1.96, abs=3 * HALF_CYCLE)
-
-
-@pytest.mark.parametrize("base", [40.0, 50.0])
-def test_start_up_from_beyond_resonance_never_succeeds(transient, base):
-    run = control.start_up(transient, base, duration=6.0)
-    assert math.isnan(control.fired_at(run))
-    assert run.status is Status.COMPLETED
-    assert "motored" in run.message
-
-
-def test_resonance_lies_just_above_forty_hertz(transient):
-    frequencies = np.arange(39.0, 42.01, 0.1)
-    table = control.motored(transient, frequencies, [66.0])
-    best = table.loc[table.compression_ratio.idxmax()]
-    assert 40.0 < best.motor_frequency < 40.5
-    assert (table.compression_ratio < 12.0).all()
-    assert table.attrs["units"]["motor_frequency"] == "Hz"
-
-
-def test_amplitude_alone_does_little(transient):
-    """Fig. 94: linear, with a small step where the ports first open."""
-    amplitudes = [100.0, 200.0, 300.0, 400.0, 440.0, 450.0, 600.0, 800.0]
-    table = control.motored(transient, [35.0], amplitudes)
-    assert (table.compression_ratio < 1.6).all()
-    assert table.opened_ports.tolist() == [False] * 5 + [True] * 3
-    closed = table[~table.opened_ports]
-    per_newton = closed.stroke / closed.motor_amplitude
-    assert np.ptp(per_newton) < 0.01 * per_newton.mean()
-    at = table.set_index("motor_amplitude").stroke
-    assert at[450.0] < at[440.0] < at[600.0] < at[800.0]
-
-
-def test_the_fuel_is_cut_and_the_engine_rings_down(transient):
-    run = control.fuel_cut(transient, at=1.5, duration=3.0)
-    table = run.dead_centres
-    assert run.status is Status.COMPLETED
-    assert "without fuel" in run.message
-    after = table[table.t > 1.6]
-    assert (after.load_weight == 0.0).all()  # the regulator lets go
-    assert (np.diff(after.stroke[after.stroke > 0.5e-3]) < 0.0).mean() > 0.95
-    assert after.stroke.iloc[-1] < 0.4 * after.stroke.iloc[0]
-    first = table[table.t > 1.5].compression_ratio.iloc[:4].tolist()
-    assert first[2:4] == [pytest.approx(13.5, abs=0.3), pytest.approx(9.6, abs=0.3)]
-
-
-def test_how_many_strokes_without_fuel_are_survived(transient):
-    table = control.misfires(transient, [1, 2, 3, 10])
-    with_motor, without = table[table.motor], table[~table.motor]
-    assert with_motor.survives.all()
-    assert (with_motor.recovery_time < 0.5).all()  # Fig. 108
-    assert without.survives.tolist() == [True, False, False, False]
-    assert without.least_compression_ratio.iloc[0] == pytest.approx(11.8, abs=0.3)
-    assert (without.motor_returns == 0).all()
+# --- the experiments; what the dissertation says of them is in tests/thesis/test_chapter_5.py
 
 
 def test_nothing_recovers_from_what_has_not_happened(transient, started):
@@ -137,51 +57,21 @@ def test_nothing_recovers_from_what_has_not_happened(transient, started):
     assert math.isnan(control.recovery_time(started, 5.0))
 
 
-def test_an_overloaded_engine_misfires_and_fires_late(transient):
-    """Fig. 107: misfire, ring-down, and a trapped charge that lights once the walls heat it."""
-    run = control.overload(transient)
-    first = run.events.t[(run.events.event == "misfire") & (run.events.t > 2.0)].iloc[0]
-    assert 3.0 < first < 4.0
-    before = run.dead_centres[(run.dead_centres.t > 2.0) & (run.dead_centres.t < first)]
-    assert before.compression_ratio.iloc[0] > 17.0
-    assert before.compression_ratio.iloc[-2:].min() < 12.5
-    late = run.events[(run.events.event == "ignition") & (run.events.t > first + 1.0)]
-    assert len(late)
-    none = control.overload(transient, late_ignition=False)
-    assert none.events.t[none.events.event == "ignition"].max() < first + 0.1
-
-
-def test_load_alone_cannot_follow_a_step_down(transient):
-    """Fig. 100, over a grid of gains: with an integral part the engine runs away."""
-    power = saleg.steady_state(transient).performance.power
-    step = Demand.step(2.0, power, power - 2000.0)
-    settled = []
-    for proportional in (0.0, 0.1):
-        for integral in (0.0, 0.5, 2.0):
-            run = control.demand_by_load(
-                transient, step, proportional_gain=proportional, integral_gain=integral
-            )
-            ratio = run.dead_centres.compression_ratio
-            settles = run.status is Status.STEADY
-            settled.append(settles)
-            assert settles or ratio.max() > 100.0
-            if settles:  # and does not give what is asked for
-                assert run.performance.power > power - 100.0
-    assert settled == [True, False, False, True, False, False]
-
-
-def test_intake_temperature_follows_a_step_down(transient):
-    """Fig. 102: the demand is met, at the price of efficiency."""
-    known = control.operating_map(transient, "intake.temperature", np.linspace(263, 370, 12))
-    run = control.demand_by_intake(transient, Demand.step(2.0, 3905.0, 1905.0), known=known)
-    assert run.status is Status.STEADY
-    assert run.performance.power == pytest.approx(1905.0, rel=0.01)
-    assert 0.2 < run.performance.efficiency < 0.27  # 22 % there
-    ramp = control.demand_by_intake(
-        transient, Demand.ramp(2.0, 6.0, 3905.0, 905.0), known=known, duration=8.0
-    )
-    assert ramp.dead_centres.intake_temperature.iloc[-1] > 369.9
-    assert ramp.performance.power > 1700.0  # as far as the map goes, and no further
+@pytest.mark.parametrize("machine", ["transient", "base"])
+def test_maps_end_where_their_orbits_do(machine, request):
+    """One step beyond the last value no stable orbit delivers power."""
+    engine = request.getfixturevalue(machine)
+    for known, step in ((control.intake_map(engine), 10.0), (control.fuel_map(engine), -0.025)):
+        ends = known.table[known.path].iloc[[0, -2, -1]].tolist()
+        assert ends[0] == engine.get(known.path)
+        assert ends[2] == pytest.approx(ends[1] + step)
+        assert {known.lowest, known.highest} == {ends[0], ends[1]}
+        last = saleg.steady_state(engine.replace(**{known.path: ends[1]}))
+        assert last.status is Status.STEADY
+        assert last.stable
+        assert 0.0 < last.performance.power < 0.1 * max(known.powers)
+        beyond = saleg.steady_state(engine.replace(**{known.path: ends[2]}))
+        assert beyond.status is not Status.STEADY
 
 
 def test_fuel_follows_a_step_down(transient):
@@ -189,6 +79,16 @@ def test_fuel_follows_a_step_down(transient):
     assert run.status is Status.STEADY
     assert run.performance.power == pytest.approx(1905.0, rel=0.01)
     assert run.performance.efficiency > 0.3
+
+
+@pytest.mark.parametrize(("base", "seen"), [(30.0, 2.25), (35.0, 1.20), (38.0, 0.49)])
+def test_start_up_with_the_frequency_integrated(transient, base, seen):
+    """The default, whose sweep is the frequency itself: it passes resonance when it gets there."""
+    run = control.start_up(transient, base, duration=seen + 0.7)
+    fired = control.fired_at(run)
+    assert fired == pytest.approx(seen, abs=3 * HALF_CYCLE)
+    at = run.dead_centres[run.dead_centres.t < fired].motor_frequency.iloc[-1]
+    assert 39.5 < at < 43.0  # resonance, 40.3 Hz, a little passed
 
 
 # --- Python and compiled
@@ -246,7 +146,7 @@ PARTS = [
 def test_every_part_commands_the_same_compiled(part):
     """The compiled function, called by its address, against the same source run as Python."""
     controller = dataclasses.replace(Controller(), **{part.slot: part()})
-    address, numbers, held, signals, commands = control_of(controller)
+    address, numbers, memory, signals, commands = control_of(controller)
     python = InPython(controller)
     rng = np.random.default_rng(1)
     was = 0.0
@@ -267,17 +167,17 @@ def test_every_part_commands_the_same_compiled(part):
             0.6,
             300.0,
         )
-        signals[:] = seen
+        signals[0] = seen
         call_at(
             address,
             numbers.ctypes.data,
-            held.ctypes.data,
+            memory.ctypes.data,
             signals.ctypes.data,
             commands.ctypes.data,
         )
         wanted = python.act(seen)
-        np.testing.assert_allclose(commands, wanted, rtol=1e-14)
-        np.testing.assert_allclose(held, python.held.ravel(), rtol=1e-14)
+        np.testing.assert_allclose(commands[0].tolist(), wanted, rtol=1e-14)
+        np.testing.assert_allclose(memory, python.memory.ravel(), rtol=1e-14)
         was = wanted.motoring
 
 
@@ -390,9 +290,9 @@ def test_a_controller_that_fails_ends_the_run_and_is_named(transient, what, word
 class Runaway(LoadControl):
     """Asks for nonsense after a while."""
 
-    def weight(self, held, signals):
-        held[0] += 1.0
-        return 1.0 if held[0] < 10.0 else math.nan
+    def weight(self, memory, signals):
+        memory[0] += 1.0
+        return 1.0 if memory[0] < 10.0 else math.nan
 
 
 def test_a_compiled_part_that_fails_ends_the_run_and_is_named(transient):
@@ -411,7 +311,7 @@ def test_a_compiled_part_that_fails_ends_the_run_and_is_named(transient):
 class Asserting(LoadControl):
     """Fails by an assertion after a while."""
 
-    def weight(self, held, signals):
+    def weight(self, memory, signals):
         assert signals.t < 0.1
         return 1.0
 
@@ -420,7 +320,7 @@ class Asserting(LoadControl):
 class Dividing(LoadControl):
     """Fails at once: there is no frequency before the first stroke."""
 
-    def weight(self, held, signals):
+    def weight(self, memory, signals):
         return 45.0 / signals.frequency
 
 

@@ -175,3 +175,30 @@ def test_running_imports_neither_pandas_nor_matplotlib():
     )
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert out.stdout.strip() == "[]"
+
+
+def test_an_engine_says_its_laws_by_the_path_of_their_slot(base):
+    for path, law in base.laws.items():
+        assert base.get(path) is law
+    assert len(base.laws) == 2 * 6 + 3
+    bounce = saleg.BounceChamber(bore=0.06, half_stroke=0.1)
+    assert list(bounce.laws) == ["gas_properties", "heat_transfer"]
+
+
+def test_an_engine_says_whether_a_law_needs_the_motored_pressure(base):
+    assert not base.needs_motored_pressure
+    woschni = saleg.laws.Woschni()
+    assert base.replace(**{"right.heat_transfer": woschni}).needs_motored_pressure
+
+
+def test_laws_are_checked_without_being_called(base):
+    class Loose(saleg.laws.Springs):
+        def force(self, motion):
+            raise AssertionError("called")
+
+        def energy(self, motion):
+            raise AssertionError("called")
+
+    base.check_laws()
+    with pytest.raises(saleg.LawError, match="frozen dataclass"):
+        base.replace(springs=Loose()).check_laws()

@@ -17,11 +17,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import saleg
-from helpers import ROOT
 from saleg import export, performance
 from saleg.cli import main
 from saleg.export import csv_folder, description, matlab, units
-from saleg.export.place import new_file
+from saleg.files.atomic import new_file
 from saleg.kernel import layout
 from saleg.laws import Friction, ViscousFriction
 from saleg.quantities import quantity
@@ -88,9 +87,7 @@ def assert_equal_runs(one, other):
 @every_format
 def test_a_run_read_back_equals_the_run_saved(form, short_run, tmp_path, monkeypatch):
     save(form, short_run, tmp_path / NAMES[form])
-    monkeypatch.setattr(
-        sys.modules["saleg.simulation.integration"], "integrate", None
-    )  # nothing is simulated again
+    monkeypatch.setattr("saleg.simulation.integration.integrate", None)  # nothing runs again
     loaded = load(form, tmp_path / NAMES[form])
     assert_equal_runs(short_run, loaded)
     assert loaded.performance.adverse_work == short_run.performance.adverse_work
@@ -573,12 +570,6 @@ def test_importing_export_is_light():
     )
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert shown.stdout == "[]\n"
-
-
-def test_the_example_runs(tmp_path):
-    example = ROOT / "examples" / "03_export.py"
-    subprocess.run([sys.executable, "-W", "error", str(example)], check=True, cwd=tmp_path)
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_the_command_line_writes_the_formats_wanted(tmp_path, capsys):

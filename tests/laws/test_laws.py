@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from saleg import laws
-from saleg.compiler.compose import methods_text, numbers_of, record_of
+from saleg.compiler.records import numbers_of, record_of
 from saleg.compiler.source import Borrowed, NoSource
 from saleg.compiler.strength_reduction import EXPONENTIAL
-from saleg.kernel.aid import Aid
+from saleg.compiler.text import methods_text
+from saleg.kernel.logarithms import Logarithms
 from saleg.laws import Charge, Gas, Motion, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law
 from saleg.quantities import problems
@@ -84,7 +85,7 @@ BASES = {**CHAMBER_SLOTS, **ENGINE_SLOTS}
 ARGUMENTS = {
     "gamma": [(T,) for T in (150.0, 300.0, 1000.0, 2500.0, 3500.0)],
     "internal_energy": [(T,) for T in (150.0, 300.0, 1000.0, 2500.0, 3500.0)],
-    "kink": [()],
+    "breakpoint": [()],
     "coefficient": [(gas, CHARGE) for gas in GASES],
     "duration": [(gas, CHARGE) for gas in GASES],
     "rate": [(gas, CHARGE) for gas in GASES],
@@ -94,16 +95,16 @@ ARGUMENTS = {
     "energy": [(motion,) for motion in MOTIONS],
     "happens": [(number,) for number in (0.0, 1.0, 2.0, 7.0)],
     "lights_at_dead_centre": [(CHARGE,)],
-    "current_rate": [(held, motion) for held in (0.0, 1.1) for motion in MOTIONS],
-    "electrical_power": [(held, motion) for held in (0.0, 1.1) for motion in MOTIONS],
-    "at_dead_centre": [(held, stroke) for held in (-1.0, 0.0, 9.0) for stroke in STROKES],
+    "current_rate": [(weight, motion) for weight in (0.0, 1.1) for motion in MOTIONS],
+    "electrical_power": [(weight, motion) for weight in (0.0, 1.1) for motion in MOTIONS],
+    "at_dead_centre": [(memory, stroke) for memory in (-1.0, 0.0, 9.0) for stroke in STROKES],
 }
 
 
 def arguments(law, method):
     if method == "force":
-        held = () if law.slot == "springs" else (1.05,)
-        return [(*held, motion) for motion in MOTIONS]
+        memory = () if law.slot == "springs" else (1.05,)
+        return [(*memory, motion) for motion in MOTIONS]
     return ARGUMENTS[method]
 
 
@@ -131,8 +132,8 @@ def test_laws_that_mirror_are_odd(law):
     """What a class says of itself spares the search for steady states to try it out."""
     for motion in MOTIONS:
         seen = Motion(motion.t, -motion.x, -motion.v, -motion.direction, -motion.current)
-        held = () if law.slot == "springs" else (1.05,)
-        assert law.force(*held, seen) == -law.force(*held, motion)
+        memory = () if law.slot == "springs" else (1.05,)
+        assert law.force(*memory, seen) == -law.force(*memory, motion)
 
 
 def compiled(law, method):
@@ -165,8 +166,8 @@ def test_eased_face_equals_python_face(law, method):
     record = np.array(numbers_of([law])).view(record_of(law))[0]
     for gas in GASES:
         constants = names[f"one_{method}_constants"](record, gas, CHARGE)
-        aid = Aid(math.log(gas.p), math.log(gas.T), math.log(gas.V), *constants)
-        found = names[f"one_{method}"](record, gas, CHARGE, aid)
+        logarithms = Logarithms(math.log(gas.p), math.log(gas.T), math.log(gas.V), *constants)
+        found = names[f"one_{method}"](record, gas, CHARGE, logarithms)
         assert found == pytest.approx(getattr(law, method)(gas, CHARGE), rel=1e-12, abs=1e-300)
 
 
@@ -226,12 +227,12 @@ def test_polytropic_loss_makes_the_exponent():
     """The rate of the pressure, by Eq. 48, is that along the polytrope of either way."""
     law, gas = laws.PolytropicLoss(1.4, compression=1.3, expansion=1.5), GASES[1]
     for rate, exponent in ((-3.0, 1.3), (3.0, 1.5)):
-        area = 2.0 * gas.V / gas.height + math.pi * gas.bore * gas.height
+        area = 2.0 * gas.V / gas.clearance + math.pi * gas.bore * gas.clearance
         difference = gas.T - gas.wall_temperature
-        moving = gas._replace(height_rate=rate)
+        moving = gas._replace(clearance_rate=rate)
         lost = law.coefficient(moving, CHARGE) * area * difference
         assert lost > 0.0
-        growth = rate / gas.height
+        growth = rate / gas.clearance
         p_rate = -1.4 * gas.p * growth - 0.4 / gas.V * lost
         assert p_rate == pytest.approx(-exponent * gas.p * growth, rel=1e-13)
 
@@ -301,6 +302,17 @@ def test_alternator_delivers_no_more_than_it_takes(law):
             taken -= law.inductance * motion.current * law.current_rate(1.05, motion)
         assert law.electrical_power(1.05, motion) <= taken
     assert all(law.at_dead_centre(1.0, stroke) >= 0.0 for stroke in STROKES)
+
+
+def test_a_load_follows_from_flux_and_resistance():
+    """Eq. 44 to 47: the induced voltage k v on the load R, all losses in the efficiency."""
+    law = laws.LinearLoad.from_circuit(50.0, 40.0, efficiency=0.8, regulator_gain=3.0)
+    assert law.load_constant == pytest.approx(78.125)
+    assert law.regulator_gain == 3.0
+    for motion in MOTIONS:
+        power = (50.0 * motion.v) ** 2 / 40.0
+        assert law.electrical_power(1.0, motion) == pytest.approx(power)
+        assert law.force(1.0, motion) * motion.v == pytest.approx(power / 0.8)
 
 
 def test_hohenberg_against_a_hand_calculation():
@@ -413,8 +425,8 @@ def test_laws_of_any_shape_keep_their_value_when_eased(law):
     record = np.array(numbers_of([law])).view(record_of(law))[0]
     for gas in GASES:
         constants = names["one_coefficient_constants"](record, gas, CHARGE)
-        aid = Aid(math.log(gas.p), math.log(gas.T), math.log(gas.V), *constants)
-        found = names["one_coefficient"](record, gas, CHARGE, aid)
+        logarithms = Logarithms(math.log(gas.p), math.log(gas.T), math.log(gas.V), *constants)
+        found = names["one_coefficient"](record, gas, CHARGE, logarithms)
         assert found == pytest.approx(law.coefficient(gas, CHARGE), rel=1e-12)
 
 

@@ -16,7 +16,7 @@ cell = pathlib.Path(sys.argv[1]).read_text(encoding="utf-8")
 shell.run_cell(cell).raise_error()
 run, law = shell.user_ns["run"], shell.user_ns["law"]
 
-from saleg.compiler.compose import kernel_for
+from saleg.compiler.compiled_engine import kernel_for
 
 # It is kept on disk like a law of a file, and what stands beside it is part of it.
 assert kernel_for(run.engine).module.__file__.endswith(".py")

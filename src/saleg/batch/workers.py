@@ -15,10 +15,10 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import nullcontext
-from numbers import Integral
 from typing import TypeVar
 
-from saleg.errors import SalegError
+from saleg.quantities import is_whole
+from saleg.simulation.integration import SettingsError
 
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")
@@ -29,21 +29,20 @@ UNDER_WAY = 4
 LOST = (BrokenExecutor, CancelledError, ConnectionError)
 
 
-class WorkersError(SalegError, ValueError):
+class WorkersError(SettingsError):
     """Nobody could do the work so."""
 
 
-def check_workers(executor: Executor | None, workers: int | None) -> None:
-    """Refuse what can do no work.
+def check_workers(executor: Executor | None, workers: int | None, chunk: int = 1) -> None:
+    """Refuse what can do no work, or not in pieces of `chunk`.
 
     Raises
     ------
     WorkersError
     """
-    if workers is not None and not (
-        isinstance(workers, Integral) and not isinstance(workers, bool) and 1 <= workers < 2**31
-    ):
-        raise WorkersError(f"workers = {workers!r}: must be a whole number >= 1")
+    for name, value in (("workers", 1 if workers is None else workers), ("chunk", chunk)):
+        if not is_whole(value, 1, 2**31 - 1):
+            raise WorkersError(f"{name} = {value!r}: must be a whole number >= 1")
     if executor is not None and (
         isinstance(executor, type) or not callable(getattr(executor, "submit", None))
     ):

@@ -9,14 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.cli.run import CommandError, add_changes, changed, load
-from saleg.engine.toml import nearest
+from saleg.errors import nearest
+from saleg.files.atomic import write_text
+from saleg.files.tables import labelled, write_table
 from saleg.machines import CATALOGUE
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from saleg.engine import Engine
-    from saleg.thesis.experiment import Experiment, Line, Result
+    from saleg.simulation.run import Run
+    from saleg.thesis.experiment import Experiment, Line
 
 #: The engine of Chapter 5.
 DEFAULT = "thesis-transient"
@@ -24,6 +27,7 @@ DEFAULT = "thesis-transient"
 FLAGS = {
     "duration": "--duration",
     "base_frequency": "--base-frequency",
+    "phase": "--phase",
     "strokes": "--strokes",
     "motor": "--no-motor",
     "demand": "--demand",
@@ -49,6 +53,11 @@ def add_to(commands: Any) -> None:
     add("--duration", type=float, metavar="T", help="time to simulate [s]")
     add(
         "--base-frequency", type=float, metavar="F", help="the motor begins with it [Hz] (start-up)"
+    )
+    add(
+        "--phase",
+        choices=("literal", "integrated"),
+        help="the motor's force is sin(2 pi f t), or its frequency is integrated (start-up)",
     )
     add("--strokes", type=int, metavar="N", help="strokes without fuel (misfire)")
     add(
@@ -79,19 +88,22 @@ def perform(options: argparse.Namespace) -> bool:
         result = experiment.run(engine, **keywords)
         print(_report(options, experiment, engine, result))
     else:
-        from saleg.export.place import new_folder
+        from saleg.files.atomic import new_folder
 
         with new_folder(options.out, options.force, _known(), how="add --force") as folder:
             result = experiment.run(engine, **keywords)
             names = _write(folder, engine, experiment, result)
         print(_report(options, experiment, engine, result))
         print(f"\nwrote {options.out}: {', '.join(names)}")
-    if options.animate is not None and result.run is not None:
+    from saleg.thesis.experiment import run_of
+
+    run = run_of(result)
+    if options.animate is not None and run is not None:
         from saleg.plotting import animate
 
-        animate(result.run, options.animate, overwrite=options.force)
+        animate(run, options.animate, overwrite=options.force)
         print(f"wrote {options.animate}")
-    return result.run is None or result.run.status.ended_well
+    return run is None or run.status.ended_well
 
 
 def _listed() -> str:
@@ -136,15 +148,22 @@ def _keywords(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _report(
-    options: argparse.Namespace, experiment: Experiment, engine: Engine, result: Result
+    options: argparse.Namespace, experiment: Experiment, engine: Engine, result: Any
 ) -> str:
     """What was done, how it ended, and what was seen beside what the dissertation says."""
-    beside = engine == CATALOGUE[DEFAULT]()
+    from saleg.thesis.experiment import run_of
+
+    run, beside = run_of(result), engine == CATALOGUE[DEFAULT]()
     head = [f"{options.experiment}: {experiment.summary}"]
-    if result.run is not None:
-        head.append(f"{result.run.engine.name}: {result.run.status} - {result.run.message}")
-    lines = experiment.report(result) if result.moved else []
+    if run is not None:
+        head.append(f"{run.engine.name}: {run.status} - {run.message}")
+    lines = experiment.report(result) if _moved(run) else []
     return "\n\n".join(["\n".join(head), "\n".join(_aligned(lines, beside))]).rstrip()
+
+
+def _moved(run: Run | None) -> bool:
+    """Whether there is anything to draw and report; not after a run without a full cycle."""
+    return run is None or len(run.cycles) > 0
 
 
 def _aligned(lines: list[Line], beside: bool) -> list[str]:
@@ -164,23 +183,23 @@ def _known() -> tuple[str, ...]:
     return (ENGINE, *TABLES, *sorted(pictures))
 
 
-def _write(folder: Path, engine: Engine, experiment: Experiment, result: Result) -> list[str]:
+def _write(folder: Path, engine: Engine, experiment: Experiment, result: Any) -> list[str]:
     """Write engine, tables and, of what moved, pictures; returns the names of the files."""
-    from saleg.export.csv_folder import write_text
+    from saleg.thesis.experiment import run_of, table_of
 
-    write_text(folder / ENGINE, (engine if result.run is None else result.run.engine).to_toml())
-    if result.run is not None:
-        write_frame(folder / "dead_centres.csv", result.run.dead_centres)
-        write_frame(folder / "cycles.csv", result.run.cycles)
-    if result.table is not None:
-        write_frame(folder / "results.csv", result.table)
-    for name, picture in experiment.draw.items() if result.moved else ():
-        np.ravel(picture(result))[0].figure.savefig(folder / name)
+    run, table = run_of(result), table_of(result)
+    write_text(folder / ENGINE, (engine if run is None else run.engine).to_toml())
+    if run is not None:
+        write_frame(folder / "dead_centres.csv", run.dead_centres)
+        write_frame(folder / "cycles.csv", run.cycles)
+    if table is not None:
+        write_frame(folder / "results.csv", table)
+    for name, draw in experiment.draw.items() if _moved(run) else ():
+        np.ravel(draw(result))[0].figure.savefig(folder / name)
     return [name for name in _known() if (folder / name).exists()]
 
 
 def write_frame(path: Path, frame: pd.DataFrame) -> None:
     """Write a table with its units in the header, every number so that it is read back exactly."""
-    units = frame.attrs["units"]
-    labels = [f"{name} [{units[name]}]" if name in units else str(name) for name in frame]
-    frame.to_csv(path, index=False, header=labels, lineterminator="\n", encoding="utf-8")
+    with open(path, "w", encoding="utf-8", newline="\n") as file:
+        write_table(file, labelled(frame))

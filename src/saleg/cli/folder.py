@@ -7,8 +7,9 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from saleg.export import csv_folder, formats, place
+from saleg.export import csv_folder, formats
 from saleg.export.description import as_tables
+from saleg.files import atomic
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 
 if TYPE_CHECKING:
@@ -38,9 +39,9 @@ def new_folder(target: Path, force: bool = False) -> AbstractContextManager[Path
     Returns
     -------
     context manager
-        Gives the folder to write to; see :func:`saleg.export.place.new_folder`.
+        Gives the folder to write to; see :func:`saleg.files.atomic.new_folder`.
     """
-    return place.new_folder(target, force, KNOWN, how="add --force")
+    return atomic.new_folder(target, force, KNOWN, how="add --force")
 
 
 def write_run(run: Run, folder: Path, wanted: Sequence[str] = ("csv",)) -> list[str]:
@@ -49,7 +50,7 @@ def write_run(run: Run, folder: Path, wanted: Sequence[str] = ("csv",)) -> list[
     Without a full cycle there are no plots.
     """
     description = as_tables(run)
-    csv_folder.write_text(folder / csv_folder.ENGINE, description.engine_toml)
+    atomic.write_text(folder / csv_folder.ENGINE, description.engine_toml)
     for suffix in (FORMATS[word] for word in wanted):
         target = folder / f"run{suffix}" if suffix else folder
         formats.SUFFIXES[suffix].write(description, target)

@@ -8,8 +8,8 @@ from typing import Any
 
 from saleg.cli.folder import FORMATS, new_folder, write_run
 from saleg.engine import Engine
-from saleg.engine.toml import SLOTS, laws_by_slot, nearest, read_toml
-from saleg.errors import SalegError
+from saleg.engine.toml import SLOTS, laws_by_slot, read_toml
+from saleg.errors import SalegError, nearest
 from saleg.export.formats import check
 from saleg.machines import CATALOGUE
 from saleg.simulation.integration import simulate
@@ -146,7 +146,7 @@ def _settings(options: argparse.Namespace) -> dict[str, Any]:
 def report(result: Run) -> str:
     """Text on a run: status, message and figures, beside the thesis' where there are any."""
     from saleg.simulation.report import describe_run
-    from saleg.thesis.tables import comparison
+    from saleg.thesis.beside import comparison
 
     table = comparison(result) if result.status.ended_well else None
     return describe_run(result) + (f"\n\n{table}" if table else "")

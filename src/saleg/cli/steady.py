@@ -23,6 +23,6 @@ def add_to(commands: Any) -> None:
 def solve(options: argparse.Namespace) -> bool:
     """Solve and report; returns whether there is a steady state."""
     found = steady_state(changed(load(options.machine), options.changes), rtol=options.rtol)
-    known = describe(found.stability) if found.found else ""
+    known = describe(found.stability) if found.found and found.has_multipliers else ""
     print("\n".join(text for text in (str(found), known) if text))
     return found.found

@@ -1,1 +1,46 @@
-"""From an engine's laws and the kernel's modules to compiled code."""
+"""From an engine's laws and the kernel's modules to compiled code.
+
+Three facts to begin with:
+
+- **Imports are stripped.** A composed module is the text of our modules without their docstrings
+  and without ``from saleg...`` lines; it imports nothing of ours.
+- **All parts share one namespace.** A name defined in two of them is refused, and what a law brings
+  along (helpers, constants) gets a prefix of its slot.
+- **This is the order:** what laws are shown (``laws/arguments``), what of the kernel needs no law,
+  the slots filled with laws (in place of ``kernel/slots``), then the kernel: ``rhs``, ``step``,
+  ``events``, ... ``orbit``.
+
+So a composed module reads, much shortened::
+
+    import numba
+    inline = numba.njit(
+    cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=True)
+    # --- laws/arguments.py
+    class Gas(NamedTuple):
+    # --- kernel/layout.py
+    def both_heat_release_burn_rate__wiebe_rate(u, a, b):
+    def both_heat_release_burn_rate(self, u):
+        return both_heat_release_burn_rate__wiebe_rate(u, self.a, self.b)
+    def heat_release_burn_rate(P, side, u):
+        if side == 0:
+            return both_heat_release_burn_rate(P.left.heat_release, u)
+        return both_heat_release_burn_rate(P.right.heat_release, u)
+    def engine_springs_force(self, motion):
+        return -2.0 * self.stiffness * motion.x
+    def springs_force(P, motion):
+        return engine_springs_force(P.springs, motion)
+    # --- kernel/rhs.py
+    def rhs(P, E, C, t, y, dy, motored):
+    # --- kernel/integrate.py
+    @cached
+
+``P`` is the record of all numbers of all laws, so another number compiles nothing.
+
+Where to look: :mod:`~saleg.compiler.compiled_engine` is the door the other floors come in by;
+:mod:`~saleg.compiler.text` composes, of methods that :mod:`~saleg.compiler.source` makes ready and
+:mod:`~saleg.compiler.strength_reduction` makes cheap; :mod:`~saleg.compiler.module` executes the
+text, kept in the :mod:`~saleg.compiler.cache`; :mod:`~saleg.compiler.kernel` calls it, through
+:mod:`~saleg.compiler.machine_code`; :mod:`~saleg.compiler.records` holds the numbers.
+:mod:`~saleg.compiler.controllers` are composed by themselves. :mod:`~saleg.compiler.plain` does
+without all of it. ``call_at`` and ``run_at`` are texts that composed modules take in.
+"""

@@ -8,10 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
-import tempfile
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -58,55 +55,3 @@ def _distrust(folder: Path) -> str | None:
     if status.st_mode & 0o022:
         return "others may write to it"
     return None
-
-
-def kept(path: Path, text: str) -> bool:
-    """Whether a composed module is in the cache, written if need be; if not, a warning says why."""
-    blocking = [name for name in (path, path.with_suffix(".lock")) if name.is_dir()]
-    try:
-        if blocking:
-            raise IsADirectoryError(f"{blocking[0].name} is a folder; remove it")
-        if not path.is_file() or path.read_bytes() != text.encode():
-            write_atomically(path, text)
-    except OSError as error:
-        warnings.warn(
-            f"a compiled kernel is not kept: {path.parent}: {error}", RuntimeWarning, stacklevel=2
-        )
-        return False
-    return True
-
-
-def write_atomically(path: Path, text: str) -> None:
-    """Write a text file so that it is there whole or not at all."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
-
-
-@contextmanager
-def locked(path: Path) -> Iterator[None]:
-    """Hold a lock file, so that only one process at a time compiles a kernel."""
-    with open(path, "a+b") as file:
-        if sys.platform == "win32":
-            import msvcrt
-
-            file.seek(0)
-            msvcrt.locking(file.fileno(), msvcrt.LK_LOCK, 1)
-            try:
-                yield
-            finally:
-                file.seek(0)
-                msvcrt.locking(file.fileno(), msvcrt.LK_UNLCK, 1)
-        else:
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX)
-            try:
-                yield
-            finally:
-                fcntl.flock(file, fcntl.LOCK_UN)

@@ -6,37 +6,27 @@ like that of a kernel and kept beside it.
 
 from __future__ import annotations
 
-import types
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.cache import kept, locked, usable_folder
-from saleg.compiler.compose import (
-    digest,
-    execute,
-    is_ours,
-    lengths_of,
-    methods_text,
-    names_of,
-    numbers_of,
-    own_text,
-)
-from saleg.compiler.source import NoSource, fingerprint
+from saleg.compiler import plain
+from saleg.compiler.cache import usable_folder
+from saleg.compiler.module import load
+from saleg.compiler.records import lengths_of_all, names_of, numbers_of
+from saleg.compiler.source import NoSource, fingerprint, is_ours
+from saleg.compiler.text import COMPILED_HEADER, methods_text, own_text
 from saleg.errors import LawError
-from saleg.kernel import jit, layout
+from saleg.kernel import layout
+from saleg.kernel.tuples import Control
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS
 
 if TYPE_CHECKING:
-    from saleg.compiler.compose import Lengths
+    from saleg.compiler.records import Lengths
     from saleg.engine.controller import Controller
     from saleg.laws import Law
-
-#: What the kernel is handed: address of a function, numbers, and room for what it holds, is shown
-#: and commands.
-Control = tuple[int, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 ENTRY = """\
 _pointer = numba.types.CPointer(numba.types.float64)
@@ -58,12 +48,14 @@ def control_of(controller: Controller) -> Control:
     LawError
         If a part cannot be compiled, naming it.
     """
-    laws = [getattr(controller, name) for name in CONTROL_SLOTS]
-    classes = tuple(type(law) for law in laws)
+    if plain.is_wanted():
+        room = nobody()
+        return room._replace(address=plain.plain_function(controller, room))
+    laws = list(controller.laws.values())
+    classes: tuple[Any, ...] = tuple(map(type, laws))
     state = tuple(fingerprint(law) for law in dict.fromkeys(classes) if not is_ours(law))
-    known: Any = classes
-    entry = _load(known, tuple(lengths_of(law) for law in laws), state)
-    return _with_room(int(entry.address), np.array(numbers_of(laws), np.float64))
+    found = _load(classes, lengths_of_all(laws), state)
+    return _with_room(int(found.address), np.array(numbers_of(laws), np.float64))
 
 
 def nobody() -> Control:
@@ -72,8 +64,14 @@ def nobody() -> Control:
 
 
 def _with_room(address: int, numbers: np.ndarray) -> Control:
-    held = np.zeros(layout.CONTROL_PARTS * layout.HELD)
-    return address, numbers, held, np.zeros(len(Signals._fields)), np.zeros(len(Commands._fields))
+    commands = np.full(2 * len(Commands._fields), np.nan).view(layout.COMMANDS_RECORD)
+    return Control(
+        address=address,
+        numbers=numbers,
+        memory=np.zeros(layout.CONTROL_PARTS * layout.MEMORY),
+        signals=np.zeros(1, layout.SIGNALS_RECORD),
+        commands=commands,
+    )
 
 
 @lru_cache(maxsize=128)
@@ -82,41 +80,24 @@ def _load(
 ) -> Any:
     """Compiled function of a choice of law classes in a certain state."""
     names = ", ".join(law.__name__ for law in dict.fromkeys(classes) if not is_ours(law))
+    from numba.core.errors import NumbaError
+
+    folder = usable_folder()
     try:
-        text = _text(classes, lengths)
+        return load(_text(classes, lengths, folder is not None), "controller", folder).module.entry
     except NoSource:
         raise LawError(
             f"the source of {names} cannot be had here: write it to a file or a notebook, or run "
             "the controller with compiled=False"
         ) from None
-    from numba.core.errors import NumbaError
-
-    try:
-        return _import(text)
     except NumbaError as error:
         raise LawError(f"the laws {names} cannot be compiled: {error}") from error
 
 
-def _import(text: str) -> Any:
-    """Run a module's text from the cache folder, or from memory if there is none."""
-    folder = usable_folder()
-    cached = text.replace("{cache}", "True")
-    path = None if folder is None else folder / f"saleg_controller_{digest(cached)}.py"
-    if path is None or not kept(path, cached):
-        return _entry(text.replace("{cache}", "False"), "<saleg controller>")
-    with locked(path.with_suffix(".lock")):
-        return _entry(cached, str(path))
-
-
-def _entry(text: str, filename: str) -> Any:
-    module: types.ModuleType = execute(text, filename)
-    return module.entry
-
-
-def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...]) -> str:
-    """Text of a controller's module."""
+def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], kept: bool) -> str:
+    """Text of a controller's module, whose machine code is kept on disk or not."""
     parts = ["import math", "from collections import namedtuple", "import numba"]
-    parts += ["import numpy as np", jit.COMPILED_HEADER, own_text("laws/arguments.py")]
+    parts += ["import numpy as np", COMPILED_HEADER, own_text("laws/arguments.py")]
     places, first = [], 0
     for (slot, base), law, long in zip(CONTROL_SLOTS.items(), classes, lengths, strict=True):
         (method,) = base.compiled
@@ -132,7 +113,8 @@ def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...]) -> str:
         places.append(f"{slot}_numbers({', '.join(values)})")
     parts.append(f"all_numbers = namedtuple('all_numbers', {list(CONTROL_SLOTS)})")
     parts.append(own_text("kernel/decide.py"))
-    return "\n".join([*parts, ENTRY.replace("{body}", _body(places, first))]) + "\n"
+    parts.append(ENTRY.format(cache=kept, body=_body(places, first)))
+    return "\n".join(parts) + "\n"
 
 
 def _values(names: tuple[str, ...], long: dict[str, int], first: int) -> tuple[list[str], int]:
@@ -150,7 +132,7 @@ def _body(places: list[str], count: int) -> str:
     signals = ", ".join(f"s[{n}]" for n in range(len(Signals._fields)))
     lines = [
         f"p = numba.carray(numbers_at, ({count},))",
-        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.HELD}))",
+        f"h = numba.carray(held_at, ({layout.CONTROL_PARTS}, {layout.MEMORY}))",
         f"s = numba.carray(signals_at, ({len(Signals._fields)},))",
         f"c = numba.carray(commands_at, ({len(Commands._fields)},))",
         f"wanted = decide(all_numbers({', '.join(places)}), h, Signals({signals}))",

@@ -16,7 +16,6 @@ import numbers
 import textwrap
 import types
 from collections.abc import Callable
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -24,7 +23,8 @@ import numpy as np
 from saleg.compiler.strength_reduction import eased
 from saleg.errors import LawError
 from saleg.laws import arguments
-from saleg.laws.base import GasProperties, Law
+from saleg.laws.base import Law
+from saleg.laws.earlier_names import ATTRIBUTES
 
 ALLOWED_BUILTINS = frozenset(
     {"abs", "bool", "float", "int", "len", "max", "min", "pow", "range", "round"}
@@ -35,30 +35,9 @@ class NoSource(Exception):
     """The text of a method cannot be had (it was typed into a plain interpreter)."""
 
 
-@lru_cache(maxsize=1024)
-def check_law(law: type[Law]) -> None:
-    """Refuse a law class that cannot become part of a kernel.
-
-    Raises
-    ------
-    LawError
-        Naming law and method.
-    """
-    if not dataclasses.is_dataclass(law):
-        raise LawError(f"{law.__name__} must be a frozen dataclass: put @dataclass(frozen=True)")
-    if issubclass(law, GasProperties):
-        names = {item.name for item in dataclasses.fields(law)}
-        if "gas_constant" not in names:
-            raise LawError(f"{law.__name__} needs a field 'gas_constant' [J/kg/K]")
-    bases = [base for base in law.__mro__ if "slot" in vars(base)]
-    for name in law.compiled:
-        method = getattr(law, name)
-        if name not in law.optional and any(vars(base).get(name) is method for base in bases):
-            raise LawError(f"{law.__name__}.{name} is missing: a {law.slot} law has that method")
-        plain = (inspect.Parameter.POSITIONAL_OR_KEYWORD,)
-        for parameter in inspect.signature(method).parameters.values():
-            if parameter.kind not in plain:
-                raise LawError(f"{law.__name__}.{name}: '{parameter}' must be a plain argument")
+def is_ours(law: type[Law]) -> bool:
+    """Whether a law is one of the library's, which do not change while it is imported."""
+    return law.__module__.startswith("saleg.laws.")
 
 
 def fingerprint(law: type[Law]) -> tuple[object, ...]:
@@ -100,32 +79,39 @@ class Borrowed:
         self.definitions: list[str] = []
         self._carried: dict[object, str] = {}
         self._numbers: dict[str, float] = {}
+        self._attributes: dict[str, str] = {}
 
     def add_method(self, law: type[Law], method: Callable[..., Any], name: str) -> None:
         """Add a method of a law as a function `name` whose first argument is the law's record."""
-        tree = _parse(method)
-        _check_self(law, tree, self.owner)
-        self._emit(self._prepared(tree, method, name))
+        self._emit(self._method(law, method, name))
 
     def add_eased_method(self, law: type[Law], method: Callable[..., Any], name: str) -> None:
         """Add a method with its formula eased, and the function of its constants."""
+        for part in eased(self._method(law, method, name), self._numbers):
+            self._emit(part)
+
+    def _method(self, law: type[Law], method: Callable[..., Any], name: str) -> ast.FunctionDef:
+        """A method checked and prepared."""
         tree = _parse(method)
         _check_self(law, tree, self.owner)
-        for part in eased(self._prepared(tree, method, name), self._numbers):
-            self._emit(part)
+        self._attributes = earlier_attributes(law)
+        return self._prepared(tree, method, name, own=tree.args.args[0].arg)
 
     def _emit(self, tree: ast.FunctionDef) -> None:
         self.definitions.append("@inline\n" + ast.unparse(tree))
 
     def _prepared(
-        self, tree: ast.FunctionDef, function: Callable[..., Any], name: str
+        self, tree: ast.FunctionDef, function: Callable[..., Any], name: str, own: str | None = None
     ) -> ast.FunctionDef:
-        """A function under another name, with all it uses carried along."""
+        """A function under another name, with all it uses carried along.
+
+        `own` is the name a method has for its law, whose attributes are never renamed.
+        """
         renames = {
             used: self._resolve(used, value)
             for used, value in _globals_used(tree, function, self.owner).items()
         }
-        tree = _Renamer(renames).visit(tree)
+        tree = _Renamer(renames, ATTRIBUTES if own else self._attributes, own).visit(tree)
         tree.name = name
         tree.returns = None
         tree.decorator_list = []
@@ -179,11 +165,24 @@ class _Unannotated(ast.NodeTransformer):
 
 
 class _Renamer(ast.NodeTransformer):
-    def __init__(self, renames: dict[str, ast.expr]):
+    """Gives the globals a function uses, and attributes with an earlier name, their names here."""
+
+    def __init__(
+        self, renames: dict[str, ast.expr], attributes: dict[str, str], own: str | None = None
+    ):
         self.renames = renames
+        self.attributes = attributes
+        self.own = own
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
         return self.renames.get(node.id, node)
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+        if isinstance(node.value, ast.Name) and node.value.id == self.own:
+            return node
+        self.generic_visit(node)
+        node.attr = self.attributes.get(node.attr, node.attr)
+        return node
 
 
 def _parse(function: Callable[..., Any]) -> ast.FunctionDef:
@@ -212,6 +211,12 @@ def _check_self(law: type[Law], tree: ast.FunctionDef, owner: str) -> None:
                 f"{owner} {what} '{own}.{node.attr}'; compiled, a law has only its own numbers "
                 f"({', '.join(sorted(fields)) or 'none'}): use a module-level function"
             )
+
+
+def earlier_attributes(law: type[Law]) -> dict[str, str]:
+    """Attributes of what laws are shown by their earlier names, but for those a law has itself."""
+    own = {item.name for item in dataclasses.fields(law)}  # type: ignore[arg-type]
+    return {earlier: name for earlier, name in ATTRIBUTES.items() if earlier not in own}
 
 
 def _globals_used(

@@ -2,9 +2,6 @@
 
 from saleg.control.demand import Demand
 from saleg.control.experiments import (
-    demand_by_fuel,
-    demand_by_intake,
-    demand_by_load,
     fuel_cut,
     misfire,
     misfires,
@@ -14,8 +11,20 @@ from saleg.control.experiments import (
     recovery_time,
     start_up,
 )
-from saleg.control.maps import OperatingMap, operating_grid, operating_map
-from saleg.control.moments import first_misfire, fuel_cuts, late_ignitions, motored_times
+from saleg.control.following import (
+    demand_by_fuel,
+    demand_by_intake,
+    demand_by_load,
+    follow_demand,
+)
+from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
+from saleg.control.moments import (
+    first_misfire,
+    fuel_cuts,
+    late_ignitions,
+    motored_times,
+    ports_opened_at,
+)
 from saleg.control.plant import Plant
 from saleg.control.running import (
     fired_at,
@@ -37,9 +46,12 @@ __all__ = [
     "demand_by_load",
     "fired_at",
     "first_misfire",
+    "follow_demand",
     "fuel_cut",
     "fuel_cuts",
+    "fuel_map",
     "generator",
+    "intake_map",
     "late_ignitions",
     "misfire",
     "misfires",
@@ -50,6 +62,7 @@ __all__ = [
     "operating_grid",
     "operating_map",
     "overload",
+    "ports_opened_at",
     "rapid_start",
     "recovery_time",
     "simulate",

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from saleg.engine.text_files import read_text
 from saleg.errors import ControllerError, InvalidController
+from saleg.files.reading import read_text
 from saleg.quantities import Problem, Quantities, problems, series
 
 

@@ -1,4 +1,4 @@
-"""The experiments of Chapter 5, each a function of an engine.
+"""Experiments of Chapter 5 without a demand, each a function of an engine.
 
 Those that begin at rest bring the engine up by motored resonance first, as the dissertation does.
 """
@@ -6,35 +6,28 @@ Those that begin at rest bring the engine up by motored resonance first, as the 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.control.demand import Demand
-from saleg.control.maps import OperatingMap, operating_map
 from saleg.control.running import motor_returns, simulate, simulate_many
 from saleg.engine import Engine, check_controller, check_engine
 from saleg.engine.controller import Controller
 from saleg.engine.start import AtRest
-from saleg.laws.control.base import LoadControl
-from saleg.laws.control.fuel import FuelCut, FuelOnDemand
-from saleg.laws.control.intake import HeatedIntake
-from saleg.laws.control.load import PowerDemand, ScaledLoad, StrokeRegulator
+from saleg.laws.control.fuel import FuelCut
+from saleg.laws.control.load import ScaledLoad
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold
 from saleg.quantities import is_number
 from saleg.simulation.integration import SettingsError
 from saleg.simulation.run import Run
-from saleg.steady.solver import steady_state
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     import pandas as pd
-
-Follower = TypeVar("Follower")
 
 #: Time a motored engine is given to settle [s]; its amplitude decays within about one second.
 SETTLING = 15.0
@@ -42,10 +35,6 @@ SETTLING = 15.0
 RAPID = 38.0
 #: Strokes of a cut that does not end.
 FOR_EVER = 1e12
-#: Values of the maps the dissertation draws: intake temperature [K], up to its limit, and
-#: equivalence ratio.
-INTAKE_TEMPERATURES = tuple(float(T) for T in np.linspace(263.0, 370.0, 12))
-EQUIVALENCE_RATIOS = tuple(float(phi) for phi in np.linspace(0.1, 0.7, 13))
 #: How near the steady compression ratio an engine has recovered, relatively.
 RECOVERED = 0.02
 
@@ -179,133 +168,6 @@ def _from_rest(engine: Engine, controller: Controller, duration: float, settings
     """Run that begins at rest at the midpoint, whatever the engine's own start."""
     check_engine(engine)
     return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
-
-
-def _on_map(
-    kind: Callable[..., Follower], known: OperatingMap, demand: Demand, gain: float
-) -> Follower:
-    """Law that follows a demand on a map."""
-    return kind(
-        gain=gain,
-        powers=known.powers,
-        compression_ratios=known.compression_ratios,
-        lowest=known.lowest,
-        highest=known.highest,
-        times=demand.times,
-        demands=demand.powers,
-    )
-
-
-def demand_by_load(
-    engine: Engine,
-    demand: Demand,
-    *,
-    share: float = 0.5,
-    proportional_gain: float = 0.1,
-    integral_gain: float = 1.0,
-    duration: float = 6.0,
-    **settings: Any,
-) -> Run:
-    """Start an engine up and let its load alone follow a demand: P+PI (5.2, Fig. 100).
-
-    Parameters
-    ----------
-    engine : Engine
-    demand : Demand
-        Power over time.
-    share, proportional_gain, integral_gain : float
-        Of :class:`saleg.laws.PowerDemand`; the dissertation gives none of them.
-    duration : float
-        Time to simulate [s].
-    **settings
-        Further settings of :func:`saleg.control.simulate`.
-
-    Returns
-    -------
-    Run
-    """
-    law = PowerDemand(
-        share=share,
-        proportional_gain=proportional_gain,
-        integral_gain=integral_gain,
-        rated_power=steady_state(engine).performance.power,
-        times=demand.times,
-        demands=demand.powers,
-    )
-    return _from_rest(engine, rapid_start(load_control=law), duration, settings)
-
-
-def demand_by_intake(
-    engine: Engine,
-    demand: Demand,
-    *,
-    gain: float = 100.0,
-    known: OperatingMap | None = None,
-    load_control: LoadControl | None = None,
-    duration: float = 6.0,
-    **settings: Any,
-) -> Run:
-    """Start an engine up and let its intake temperature follow a demand (5.2, Fig. 102, 103).
-
-    Parameters
-    ----------
-    engine : Engine
-    demand : Demand
-        Power over time.
-    gain : float
-        Of :class:`saleg.laws.HeatedIntake` [K/s]; the dissertation does not give it.
-    known : OperatingMap, optional
-        Power and compression ratio over the intake temperature; made up to 370 K unless given.
-    load_control : LoadControl, optional
-        What controls the load; the stroke regulator alone unless given.
-    duration : float
-        Time to simulate [s].
-    **settings
-        Further settings of :func:`saleg.control.simulate`.
-
-    Returns
-    -------
-    Run
-    """
-    known = known or operating_map(engine, "intake.temperature", INTAKE_TEMPERATURES)
-    law = _on_map(HeatedIntake, known, demand, gain)
-    load = load_control or StrokeRegulator()
-    controller = rapid_start(intake_control=law, load_control=load)
-    return _from_rest(engine, controller, duration, settings)
-
-
-def demand_by_fuel(
-    engine: Engine,
-    demand: Demand,
-    *,
-    gain: float = 0.3,
-    known: OperatingMap | None = None,
-    duration: float = 6.0,
-    **settings: Any,
-) -> Run:
-    """Start an engine up and let its equivalence ratio follow a demand (5.2).
-
-    Parameters
-    ----------
-    engine : Engine
-    demand : Demand
-        Power over time.
-    gain : float
-        Of :class:`saleg.laws.FuelOnDemand` [1/s].
-    known : OperatingMap, optional
-        Power and compression ratio over the equivalence ratio; made from 0.1 to 0.7 unless given.
-    duration : float
-        Time to simulate [s].
-    **settings
-        Further settings of :func:`saleg.control.simulate`.
-
-    Returns
-    -------
-    Run
-    """
-    known = known or operating_map(engine, "equivalence_ratio", EQUIVALENCE_RATIOS)
-    law = _on_map(FuelOnDemand, known, demand, gain)
-    return _from_rest(engine, rapid_start(fuel_control=law), duration, settings)
 
 
 def fuel_cut(engine: Engine, *, at: float = 1.5, duration: float = 3.0, **settings: Any) -> Run:

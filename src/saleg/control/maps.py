@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import count, islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,12 +14,18 @@ from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import InvalidController
 from saleg.quantities import Problem
+from saleg.simulation.initial_state import prepare
 from saleg.status import Status
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     import pandas as pd
+
+#: Steps of the maps that go to where orbits end: intake temperature [K], equivalence ratio [-].
+TEMPERATURE_STEP, RATIO_STEP = 10.0, -0.025
+#: Values of such a map that are tried at a time.
+AT_ONCE = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,12 +68,17 @@ class OperatingMap:
 
     def _usable(self) -> pd.DataFrame:
         """Rows a controller can go by: stable steady states with power, by rising power."""
-        good = self.table[(self.table.status == str(Status.STEADY)) & self.table.stable]
+        good = self.table[_stable(self.table)]
         good = good.sort_values("power").drop_duplicates("power")
         if len(good) < 2:
             wrong = f"{len(good)} stable steady states"
             raise InvalidController([Problem(self.path, wrong, "", "a map needs at least two")])
         return good
+
+
+def _stable(table: pd.DataFrame) -> pd.Series:
+    """Which rows are stable steady states with power."""
+    return (table.status == str(Status.STEADY)) & table.stable
 
 
 def operating_map(
@@ -106,6 +118,66 @@ def operating_map(
     table.insert(0, path, np.asarray(values, dtype=float))
     table.attrs["units"] = units
     return OperatingMap(path, table)
+
+
+def intake_map(engine: Engine, *, executor: Executor | None = None) -> OperatingMap:
+    """Map over the intake temperature, from that of the engine up to where orbits end (Fig. 101).
+
+    Parameters
+    ----------
+    engine : Engine
+    executor : concurrent.futures.Executor, optional
+        Who does the work; threads of this process unless given.
+
+    Returns
+    -------
+    OperatingMap
+        In steps of 10 K; its last row is the first without a stable orbit that delivers power.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> known = saleg.control.intake_map(saleg.machines.thesis_transient())
+    >>> known.highest, known.table.status.iloc[-1]
+    (543.0, 'idling')
+    """
+    rated = float(prepare(engine).engine["rated_intake_temperature"][0])
+    return _to_the_end(engine, "intake.temperature", rated, TEMPERATURE_STEP, executor)
+
+
+def fuel_map(engine: Engine, *, executor: Executor | None = None) -> OperatingMap:
+    """Map over the equivalence ratio, from that of the engine down to where orbits end (Fig. 104).
+
+    Parameters
+    ----------
+    engine : Engine
+    executor : concurrent.futures.Executor, optional
+        Who does the work; threads of this process unless given.
+
+    Returns
+    -------
+    OperatingMap
+        In steps of 0.025; its last row is the first without a stable orbit that delivers power.
+    """
+    rated = float(prepare(engine).engine["rated_equivalence_ratio"][0])
+    return _to_the_end(engine, "equivalence_ratio", rated, RATIO_STEP, executor)
+
+
+def _to_the_end(
+    engine: Engine, path: str, begin: float, step: float, executor: Executor | None
+) -> OperatingMap:
+    """Map in even steps to where the stable orbits end; beyond its range a value is invalid."""
+    import pandas as pd
+
+    parts: list[pd.DataFrame] = []
+    steps = count()
+    while not parts or _stable(parts[-1]).all():
+        some = [begin + step * n for n in islice(steps, AT_ONCE)]
+        parts.append(operating_map(engine, path, some, executor=executor).table)
+    table = pd.concat(parts, ignore_index=True)
+    table.attrs["units"] = parts[0].attrs["units"]
+    lost = int((~_stable(table)).to_numpy().argmax())
+    return OperatingMap(path, table.iloc[: lost + 1])
 
 
 def operating_grid(

@@ -34,6 +34,21 @@ def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
     return [(int(first), int(last)) for first, last in zip(begins, ends, strict=True)]
 
 
+def ports_opened_at(run: Run) -> float:
+    """When a port first opened [s]; NaN if never, or no longer recorded.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    float
+    """
+    opened = run.event_rows["t"][run.event_rows["kind"] == layout.EVENT_PORT_OPENING]
+    return float(opened[0]) if len(opened) else math.nan
+
+
 def motored_times(run: Run) -> list[tuple[float, float]]:
     """Begin and end of every stretch of strokes in which the alternator was a motor [s].
 

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from saleg.compiler.compose import check_laws
+from saleg.control.sensors import measured
 from saleg.control.verdict import blamed, fault_message, verdict_of
 from saleg.engine import Engine, check_controller, check_engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
 from saleg.kernel import layout
-from saleg.kernel.control import obey, write_signals
+from saleg.kernel.control import asked, obey
 from saleg.kernel.decide import decide
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.actuators import Actuators
@@ -206,7 +206,7 @@ class Plant:
         if plain is None or not self._at_dead_centres:
             return None
         return ReplayOfCommands(
-            plain.engine, plain.snapshot, plain.settings, plain.controller, self._log
+            plain.engine, plain.snapshots, plain.settings, plain.controller, self._log
         )
 
 
@@ -237,17 +237,11 @@ def course_of(
     known: Settings = settings_of(duration, **{"stall_stroke": 0.0, **settings})
     check_engine(engine)
     check_controller(controller)
-    check_laws(engine, controller)
+    engine.check_laws()
+    controller.check_laws()
     state = prepare(engine)
     state.engine["controlled"] = controlled
     return Course(engine, state, known, controller)
-
-
-def measured(state: State) -> Signals:
-    """What is measured at a state."""
-    values = np.zeros(len(Signals._fields))
-    write_signals(state.records[0], values)
-    return Signals(*values.tolist())
 
 
 def give(course: Course, commands: Commands, first: bool) -> None:
@@ -266,18 +260,8 @@ def give(course: Course, commands: Commands, first: bool) -> None:
 def standing_orders(state: State) -> Commands:
     """Commands that change nothing of what was commanded last, the motor's frequency gone on."""
     E, _ = state.records
-    gone = float(E.t - E.t_command)
-    return Commands(
-        float(E.motoring),
-        float(E.asked_load_weight),
-        float(E.asked_amplitude),
-        float(E.motor_frequency + E.motor_sweep * gone),
-        float(E.motor_sweep),
-        0.0,
-        0.0,
-        float(E.asked_equivalence_ratio),
-        float(E.asked_intake_temperature),
-    )
+    frequency = E.motor_frequency + E.motor_sweep * float(E.t - E.t_command)
+    return Commands(*map(float, asked(E)._replace(frequency=frequency)))
 
 
 def note_motor(course: Course) -> None:
@@ -311,7 +295,7 @@ class InPython:
 
     def __init__(self, controller: Controller):
         self.controller = controller
-        self.held = np.zeros((layout.CONTROL_PARTS, layout.HELD))
+        self.memory = np.zeros((layout.CONTROL_PARTS, layout.MEMORY))
 
     def act(self, signals: Signals) -> Commands:
         """Commands at a dead centre.
@@ -321,9 +305,9 @@ class InPython:
         ControllerError
             Naming the part that failed.
         """
-        before = self.held.copy()
+        before = self.memory.copy()
         try:
-            commands = decide(self.controller, self.held, signals)
+            commands = decide(self.controller, self.memory, signals)
         except Exception as error:  # whatever a part does, the run says so
             raise ControllerError(blamed(self.controller, before, signals)) from error
         return Commands(*(float(value) for value in commands))

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from saleg.batch.many import CHUNK, RUN_UNITS, Row, run_row, table_of
-from saleg.compiler.compose import kernel_for
-from saleg.compiler.controllers import control_of
-from saleg.control.plant import InPython, Plant, course_of, give, measured
-from saleg.control.sensors import Measurement, Sensors
+from saleg.batch.many import RUN_UNITS, batch_table, run_row
+from saleg.batch.table import CHUNK, Row
+from saleg.compiler.compiled_engine import compiled_engine
+from saleg.control.plant import InPython, Plant, course_of, give
+from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.control.verdict import verdict_of
 from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
@@ -152,7 +152,7 @@ def _compiled(engine: Engine, controller: Controller, duration: float, settings:
         give(course, parts.act(measured(course.state)), first=True)
     except ControllerError as error:
         return course.run(*verdict_of(course, 0, str(error)))
-    course.state.engine["held"][0] = parts.held.ravel()
+    course.state.engine["memory"][0] = parts.memory.ravel()
     code = course.go_on()
     return course.run(*verdict_of(course, code), course.replay())
 
@@ -271,12 +271,13 @@ def simulate_many(
     """
     if settings.get("keep_cycles") is not None:
         raise SettingsError("keep_cycles: the table looks back to the start; leave it out")
-    one: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
-    return table_of(one, pairs, CONTROL_UNITS, executor, workers, chunk, _kernel_of)
+    row_of: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
+    return batch_table(row_of, pairs, CONTROL_UNITS, _kernel_of, executor, workers, chunk)
 
 
 def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
-    return kernel_for(pair[0], actuators=pair[1].actuators), control_of(pair[1])[0]
+    compiled = compiled_engine(*pair)
+    return compiled.kernel, compiled.control[0]
 
 
 def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any) -> Row:

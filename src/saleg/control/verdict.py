@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from saleg.control.sensors import measured
 from saleg.engine.controller import Controller
 from saleg.kernel import layout
-from saleg.kernel.control import write_signals
 from saleg.kernel.decide import with_motoring
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS, StateLogic
 from saleg.simulation.integration import Course
-from saleg.simulation.outcome import PER_CYCLE, STEADY, change_per_cycle, verdict
+from saleg.simulation.outcome import settled, verdict
 from saleg.status import Status
 
 #: Which part of a controller gives each command.
@@ -43,24 +43,24 @@ def fault_message(fault: float, commands: Commands, controller: Controller) -> s
     return f"{name} = {value!r} is not finite or beyond the limits of {law}"
 
 
-def blamed(controller: Controller, held: np.ndarray, signals: Signals, fault: float = 0.0) -> str:
+def blamed(controller: Controller, memory: np.ndarray, signals: Signals, fault: float = 0.0) -> str:
     """Slot and law of the part that fails on these signals, with its error if it raises one.
 
     Parameters
     ----------
     controller : Controller
-    held : ndarray, shape (CONTROL_PARTS, HELD)
-        What the parts held before.
+    memory : ndarray, shape (CONTROL_PARTS, MEMORY)
+        What the parts remembered before.
     signals : Signals
     fault : float
         Number of the command that is wrong, if no part raises an error.
     """
-    held = held.copy()
+    memory = memory.copy()
     for slot, base in CONTROL_SLOTS.items():
         part: Any = getattr(controller, slot)
         (method,) = base.compiled
         try:
-            value = getattr(part, method)(held[list(CONTROL_SLOTS).index(slot)], signals)
+            value = getattr(part, method)(memory[list(CONTROL_SLOTS).index(slot)], signals)
         except Exception as error:  # whatever the part does, the run says so
             return f"{slot} {type(part).__name__} raised {type(error).__name__}: {error}"
         if slot == StateLogic.slot:
@@ -74,11 +74,10 @@ def blamed(controller: Controller, held: np.ndarray, signals: Signals, fault: fl
 def _compiled_fault(course: Course) -> str:
     """What a controller in the kernel has done wrong; it is asked once more, as Python."""
     assert course.controller is not None
-    E, values = course.state.engine[0], np.zeros(len(Signals._fields))
-    write_signals(course.state.records[0], values)
-    held = E["held"].reshape(layout.CONTROL_PARTS, layout.HELD)
-    fault, commands = float(E["fault"]), Commands(*course.commanded.tolist())
-    who = blamed(course.controller, held, Signals(*values.tolist()), fault)
+    E = course.state.engine[0]
+    memory = E["memory"].reshape(layout.CONTROL_PARTS, layout.MEMORY)
+    fault, commands = float(E["fault"]), course.commanded
+    who = blamed(course.controller, memory, measured(course.state), fault)
     return who if "raised" in who else f"{who}: {fault_message(fault, commands, course.controller)}"
 
 
@@ -100,9 +99,5 @@ def verdict_of(course: Course, code: int, fault: str = "") -> tuple[Status, str]
     what = "motored" if E["motoring"] > 0.0 else "without fuel"
     length = float(E["stroke"])
     where = f"{what} at t = {t:.6g} s with a stroke of {1e3 * length:.4g} mm"
-    change = change_per_cycle(course.engine, strokes)
-    if change is None:
-        return Status.COMPLETED, f"{where}; too few cycles to call it steady"
-    steady = change < STEADY
-    status = Status.STEADY if steady else Status.COMPLETED
-    return status, f"{where}: {PER_CYCLE.format(change)}"
+    steady, how = settled(course.engine, strokes)
+    return Status.STEADY if steady else Status.COMPLETED, f"{where}: {how}"

@@ -10,7 +10,7 @@ Examples
 >>> print(found.status)
 steady
 >>> round(found.masses.alternator, 2), round(found.geometry.length, 2)
-(0.8, 0.79)
+(0.73, 0.99)
 """
 
 from saleg.design import formulas

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
@@ -15,7 +14,7 @@ from saleg.design.parameters import Parameters
 from saleg.engine import Cylinder, Engine
 from saleg.engine.paths import claimed, exists, known_paths, unit_of, with_value
 from saleg.engine.paths import get as get_path
-from saleg.errors import UnknownPath, WrongFields
+from saleg.errors import UnknownPath, WrongFields, nearest
 from saleg.laws import BlairViscousFriction
 from saleg.machines import thesis_base
 from saleg.quantities import Problem, as_float, is_number, problems
@@ -193,9 +192,7 @@ class Design:
                 raise UnknownPath(f"no '{path}' in the mass models")
             return self.masses, chain
         if path not in known_paths(self.laws):
-            known = dict.fromkeys([*NAMES, *known_paths(self.laws)])
-            near = difflib.get_close_matches(str(path), list(known), 3, 0.5)
-            hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else ""
+            hint = nearest(path, [*NAMES, *known_paths(self.laws)])
             raise UnknownPath(f"no '{path}' in a design{hint}")
         return self.laws, None
 

@@ -50,8 +50,8 @@ class Geometry:
     def of(cls, parameters: Parameters, masses: MassModel, operation: Operation) -> Geometry:
         """Geometry of a design at its steady state (Eq. 60-64).
 
-        A rod without a method ``crown`` leaves the crown where Eq. 63 puts it; a mover without
-        ``outer_diameter`` and ``inner_ratio`` has no known diameters.
+        A rod of another model leaves the crown where :class:`ConnectingRod` puts it; a mover
+        without ``outer_diameter`` and ``inner_ratio`` has no known diameters.
         """
         length = parameters.half_stroke
         outer, inner = _diameters(masses.alternator, operation)

@@ -21,20 +21,27 @@ from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 from saleg.design.results import DesignedState
 from saleg.engine import Engine, Translator, warn_of_unusual
-from saleg.engine.start import CompressedCharge, Start
+from saleg.engine.start import CompressedCharge
 from saleg.kernel import layout
 from saleg.kernel.orbit import read_vector, write_vector
 from saleg.quantities import Problem
 from saleg.simulation.initial_state import State, prepare
+from saleg.simulation.integration import STEPS_PER_CALL
 from saleg.status import Status
 from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
+from saleg.steady.slow_states import find_settled
 from saleg.steady.solver import (
     DEFAULT_TOLERANCE,
     MOST_MAPS,
+    QUICK_MAPS,
+    QUICK_STEPS,
     RESIDUAL,
+    Effort,
     SteadyState,
+    check_effort,
     check_tolerance,
     converged,
+    not_found,
     result_of,
     starts,
     waited_for,
@@ -70,6 +77,7 @@ def solve(
     *,
     rtol: float = DEFAULT_TOLERANCE,
     near: DesignedState | None = None,
+    effort: Effort = Effort.THOROUGH,
 ) -> DesignedState:
     """Masses, dimensions and steady state of a design, solved together.
 
@@ -80,6 +88,8 @@ def solve(
         Tolerance of the integrator, of the state after a return, and of the mass.
     near : DesignedState, optional
         A neighbour's orbit to start from, which follows its branch where there are several.
+    effort : Effort
+        ``Effort.QUICK`` ends with "not found" where the standard starts lead to no orbit.
 
     Returns
     -------
@@ -101,17 +111,22 @@ def solve(
     --------
     >>> found = solve(Design())
     >>> round(found.moving_mass, 2), abs(found.mass_error) < 1e-6
-    (2.33, True)
+    (2.38, True)
     """
     rtol = check_tolerance(rtol)
-    _check_design(design)
+    check_effort(effort)
+    check_design(design)
     design.validate()
     engine = design.engine(1.0)
     guess = _mass(design, Operation.guess(engine))
     if not repeats_itself(engine):
         why = "a law depends on time or counts charges"
+        if effort is Effort.QUICK:
+            return _nothing(design, guess, Spent(), why)
         return _simulated(design, guess, rtol, Spent(), why)
     mirrored = is_symmetric(engine)
+    if effort is Effort.QUICK:
+        return _quick(design, guess, rtol, mirrored, near)
     charts = _charts(design, guess, rtol, mirrored, near)
     one_by_one = _charts(design, guess, rtol, mirrored, None)
     ways = chain(zip(charts, repeat(_set_law)), zip(one_by_one, repeat(_set_mass)))
@@ -125,10 +140,29 @@ def solve(
     return _simulated(design, guess, rtol, spent, why)
 
 
+def _quick(
+    design: Design, guess: float, rtol: float, mirrored: bool, near: DesignedState | None
+) -> DesignedState:
+    """Orbit from the standard starts, or the word that they lead to none."""
+    charts = _charts(design, guess, rtol, mirrored, near, QUICK_STEPS)
+    ways = zip(charts, repeat(_set_law))
+    found, spent = _first_orbit(design, ways, rtol, Spent(), quick=True)
+    if found is not None:
+        return _closed_message(found)
+    return _nothing(design, guess, spent, "no orbit from the standard starts")
+
+
+def _nothing(design: Design, mass: float, spent: Spent, why: str) -> DesignedState:
+    """What a quick search has to say where it has found nothing; the mass is a guess."""
+    engine = design.engine(mass)
+    return DesignedState.of(not_found(engine, *spent, why), design, Operation.guess(engine))
+
+
 def evaluate(
     design: Design | None = None,
     *,
     rtol: float = DEFAULT_TOLERANCE,
+    effort: Effort = Effort.THOROUGH,
     **values: Any,
 ) -> DesignedState:
     """Evaluate a design: from the eight parameters of Table 8 to a steady state.
@@ -139,6 +173,8 @@ def evaluate(
         Laws, mass models and parameters not given; those of Chapter 4 unless given.
     rtol : float
         Tolerance.
+    effort : Effort
+        As for :func:`solve`.
     **values
         The eight parameters (SI): bore, half_stroke, port_location, spring_stiffness,
         intake_pressure, intake_temperature, equivalence_ratio, egr. Further paths of the engine or
@@ -157,13 +193,14 @@ def evaluate(
     (True, 0.083)
     """
     design = Design() if design is None else design
-    _check_design(design)
-    found = solve(design.replace(values), rtol=rtol)
+    check_design(design)
+    found = solve(design.replace(values), rtol=rtol, effort=effort)
     warn_of_unusual(found.engine)
     return found
 
 
-def _check_design(design: Any) -> None:
+def check_design(design: Any) -> None:
+    """Refuse what is no design; raises InvalidDesign."""
     if not isinstance(design, Design):
         need = "must be a saleg.design.Design, as Design().replace(bore=0.06); names go as keywords"
         raise InvalidDesign([Problem("design", design, "-", need)])
@@ -174,22 +211,32 @@ def _mass(design: Design, operation: Operation) -> float:
 
 
 def _charts(
-    design: Design, guess: float, rtol: float, mirrored: bool, near: DesignedState | None
+    design: Design,
+    guess: float,
+    rtol: float,
+    mirrored: bool,
+    near: DesignedState | None,
+    most_steps: int = STEPS_PER_CALL,
 ) -> Iterator[ReturnMap]:
     """Return maps to try."""
     if near is not None:
         yield from _near_chart(design, rtol, mirrored, near)
     engine = design.engine(guess)
     for start in starts(engine):
-        yield _chart(engine, start, rtol, mirrored)
+        state = prepare(replace(engine, start=start))
+        yield ReturnMap.of(engine, state, rtol, mirrored, most_steps)
 
 
 def _first_orbit(
-    design: Design, ways: Iterable[tuple[ReturnMap, Way]], rtol: float, spent: Spent
+    design: Design,
+    ways: Iterable[tuple[ReturnMap, Way]],
+    rtol: float,
+    spent: Spent,
+    quick: bool = False,
 ) -> tuple[DesignedState | None, Spent]:
     """The first orbit some return maps lead to, and the work done so far."""
     for chart, way in ways:
-        orbit = _closed(design, chart, rtol, way)
+        orbit = _closed(design, chart, rtol, way, quick)
         spent = Spent(spent.half_cycles + orbit.half_cycles, spent.evaluations + chart.evaluations)
         if orbit.found:
             steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
@@ -257,10 +304,6 @@ def _near_chart(
         yield ReturnMap.of(engine, state, rtol, mirrored)
 
 
-def _chart(engine: Engine, start: Start, rtol: float, mirrored: bool) -> ReturnMap:
-    return ReturnMap.of(engine, prepare(replace(engine, start=start)), rtol, mirrored)
-
-
 def near_state(engine: Engine, near: SteadyState) -> State | None:
     """State of an engine at the left dead centre of a neighbour's orbit.
 
@@ -268,15 +311,14 @@ def near_state(engine: Engine, near: SteadyState) -> State | None:
     chambers are not in the same modes there.
     """
     assert near.replay is not None
-    E, C, y = (part[1] for part in near.replay.snapshot)
-    position = float(y[layout.X]) / (0.5 * near.engine.maximum_stroke)
-    burning = float(C[0]["mode"] == layout.BURNING)
+    theirs = near.replay.start
+    position = float(theirs.y[layout.X]) / (0.5 * near.engine.maximum_stroke)
+    burning = float(theirs.chambers[0]["mode"] == layout.BURNING)
     state = prepare(replace(engine, start=CompressedCharge(position=position, burning=burning)))
-    if [*state.chambers["mode"]] != [*C["mode"]]:
+    if [*state.chambers["mode"]] != [*theirs.chambers["mode"]]:
         return None
     z = np.empty(layout.N_VECTOR)
-    theirs = State(E.reshape(1), C, y, np.zeros(layout.N_PEAKS))
-    write_vector(*theirs.records, y, z)
+    write_vector(*theirs.records, theirs.y, z)
     read_vector(*state.records, state.y, z)
     return state
 
@@ -290,22 +332,22 @@ class _Orbit(NamedTuple):
     operation: Operation
 
 
-def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way) -> _Orbit:
+def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way, quick: bool) -> _Orbit:
     """Find an orbit whose mass is that of its components; the chart then holds its engine too."""
     spent, operation = 0, Operation.guess(chart.engine)
+    most = QUICK_MAPS if quick else MOST_MAPS
     for _ in range(MOST_ORBITS):
         way(chart.state, design, operation)
-        code, found = chart.find(MOST_MAPS, RESIDUAL * rtol)
-        spent += int(found[0] * chart.strokes_per_map)
-        if code != layout.END_OF_TIME:
+        found, strokes = find_settled(chart, most, RESIDUAL * rtol, patient=not quick)
+        spent += strokes
+        if found.code != layout.END_OF_TIME:
             break
-        spent += 2
         operation = Operation.of_strokes(chart.strokes[:2])
         mass = float(chart.state.engine["mass"][0])
         if abs(_mass(design, operation) / mass - 1.0) <= MASS_TOLERANCE * rtol:
             chart.engine = dataclasses.replace(chart.engine, translator=Translator(mass))
             _give_mass(chart)
-            return _Orbit(converged(code, found, rtol), spent, float(found[2]), operation)
+            return _Orbit(converged(found, rtol), spent, found.missed, operation)
     return _Orbit(False, spent, math.nan, operation)
 
 
@@ -337,7 +379,7 @@ def _set_law(state: State, design: Design, operation: Operation) -> None:
 
 def _give_mass(chart: ReturnMap) -> None:
     """From now on the mass is given: what disturbs the orbit does not rebuild the engine."""
-    for record in (chart.state.engine, chart.snapshot[0]):
+    for record in (chart.state.engine, chart.snapshots.engine):
         for name in LAW:
             record[name] = 0.0
 

@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
-from saleg.batch.many import UNITS as STEADY_UNITS
-from saleg.batch.many import Row, steady_row
+from saleg.batch.many import STABILITY_UNITS, steady_row
+from saleg.batch.points import Values, evaluated_points, refuse_parts
+from saleg.batch.table import CHUNK, Row
 from saleg.design.designs import Design
-from saleg.design.loop import solve
-from saleg.design.results import UNITS as COMPONENT_UNITS
-from saleg.design.results import DesignedState
+from saleg.design.loop import check_design, solve
+from saleg.design.results import COMPONENT_UNITS, DesignedState
 from saleg.design.score import Score
+from saleg.steady.solver import Effort, check_effort, check_tolerance
 
 if TYPE_CHECKING:
     import pandas as pd
 
 #: Columns of a table of designs beside its inputs.
-UNITS = {**STEADY_UNITS, **COMPONENT_UNITS, "score": "-"}
+DESIGN_UNITS = {**STABILITY_UNITS, **COMPONENT_UNITS, "score": "-"}
 
 
-class Follower:
+class DesignSolver:
     """Rows of designs, one after the other.
 
     Parameters
@@ -35,19 +38,56 @@ class Follower:
         Differentiate each steady state.
     warm : bool
         Start each design from the one before it.
+    effort : Effort
+        How much work a design may be.
     """
 
-    def __init__(self, design: Design, rtol: float, multipliers: bool, warm: bool):
+    def __init__(
+        self,
+        design: Design,
+        rtol: float,
+        multipliers: bool,
+        warm: bool,
+        effort: Effort,
+    ):
         self._design, self._rtol, self._multipliers, self._warm = design, rtol, multipliers, warm
+        self._effort = effort
         self._near: DesignedState | None = None
 
-    def __call__(self, values: Mapping[str, float]) -> Row:
+    def __call__(self, values: Values) -> Row:
         """Row of a design."""
         design = self._design.replace(values)
-        found = solve(design, rtol=self._rtol, near=self._near)
+        found = solve(design, rtol=self._rtol, near=self._near, effort=self._effort)
         if self._warm and found.found:
             self._near = found
         return design_row(found, self._multipliers)
+
+
+@dataclass(frozen=True)
+class EvaluatedDesign:
+    """A design of which points replace parameters, or paths of the engine and the mass models."""
+
+    design: Design
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Units of the columns of results."""
+        return DESIGN_UNITS
+
+    def unit(self, name: str) -> str:
+        """Unit of an input; refuses what the parameters or the loop decide about."""
+        unit = self.design.unit(name)
+        refuse_parts(name, self.design.get(name))
+        self.design.replace({name: float("nan")})  # an object of its own, to be found again
+        return unit
+
+    def refuse_clash(self, names: Iterable[str]) -> None:
+        """Refuse inputs of which two stand for one number."""
+        self.design.replace(dict.fromkeys(names, math.nan))
+
+    def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> DesignSolver:
+        """What makes a row of a point; may remember the point before."""
+        return DesignSolver(self.design, rtol, multipliers, warm, effort)
 
 
 def design_row(found: DesignedState, multipliers: bool) -> Row:
@@ -66,9 +106,10 @@ def evaluate_many(
     *,
     rtol: float = 1e-6,
     multipliers: bool = False,
+    effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
-    chunk: int = 32,
+    chunk: int = CHUNK,
 ) -> pd.DataFrame:
     """Evaluate many designs.
 
@@ -83,8 +124,11 @@ def evaluate_many(
         Tolerance.
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
+    effort : Effort
+        As for :func:`saleg.steady_state`: ``Effort.QUICK`` gives up a design without an orbit from
+        the standard starts after a few milliseconds, with the status "not found".
     executor, workers, chunk
-        As for :func:`saleg.sweep.run`.
+        As for :func:`saleg.steady_states`.
 
     Returns
     -------
@@ -93,6 +137,15 @@ def evaluate_many(
         A design without a steady state, or that is not valid, is a row with that status. Units in
         ``.attrs["units"]``.
 
+    Raises
+    ------
+    SweepError
+        If the frame is no table of numbers by name.
+    UnknownPath
+        If there is no input of that name.
+    WorkersError
+        If nobody could do the work so.
+
     Examples
     --------
     >>> import pandas as pd
@@ -100,14 +153,10 @@ def evaluate_many(
     >>> list(table.status)
     ['steady', 'invalid']
     """
-    from saleg.sweep import run
-
-    return run(
-        frame,
-        design,
-        rtol=rtol,
-        multipliers=multipliers,
-        executor=executor,
-        workers=workers,
-        chunk=chunk,
-    )
+    check_tolerance(rtol)
+    check_effort(effort)
+    design = Design() if design is None else design
+    check_design(design)
+    evaluated = EvaluatedDesign(design)
+    solver = partial(evaluated.solver, rtol, multipliers, warm=False, effort=effort)
+    return evaluated_points(frame, evaluated, solver, chunk, executor, workers)

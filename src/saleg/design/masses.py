@@ -57,15 +57,16 @@ class AlternatorMover(Quantities):
     inner_ratio : float
         Inner over outer diameter [-].
     density : float
-        Effective density on that volume [kg/m^3]; the thesis gives none. 900 is inferred from
-        Table 9 with Eq. 63 as printed; its columns scatter between 860 and 1260. With room for
-        the pistons it is 820, and they agree (:meth:`MassModel.with_crankcase`).
+        Effective density on that volume [kg/m^3]; the thesis gives none. 820 is inferred from
+        Table 9 with room beneath the pistons and confirmed on Tables 10 and 12; it goes with
+        ``ConnectingRod(crankcase=1.0)``. With Eq. 63 as printed it is 900
+        (:meth:`MassModel.as_printed`).
 
     Examples
     --------
     >>> mover = AlternatorMover()
     >>> round(mover.mass(Parameters(), Operation(0.1807, 47.0, 22.6e3)), 3)
-    0.803
+    0.732
     """
 
     specific_thrust: float = quantity(
@@ -74,7 +75,7 @@ class AlternatorMover(Quantities):
     poles: float = quantity("-", default=2.0, low=0, open_low=True)
     efficiency: float = quantity("-", default=0.95, low=0, high=1, open_low=True)
     inner_ratio: float = quantity("-", default=0.8, low=0, high=1, open_high=True)
-    density: float = quantity("kg/m^3", default=900.0, low=0)
+    density: float = quantity("kg/m^3", default=820.0, low=0)
 
     def outer_diameter(self, operation: Operation) -> float:
         """Outer diameter D_o [m] (Eq. 60); zero where no power is delivered."""
@@ -114,12 +115,12 @@ class ConnectingRod(Quantities):
     per_length : float
         Mass per length [kg/m]: 75 mm^2 of steel.
     crankcase : float
-        Clearance between bearing and piston over the neutral clearance length L [-]: 0 as Eq. 63
-        is printed, 1 as its text asks for.
+        Clearance between bearing and piston over the neutral clearance length L [-]: 1 as the text
+        of Eq. 63 asks for, 0 as the equation is printed.
     """
 
     per_length: float = quantity("kg/m", default=0.585, low=0)
-    crankcase: float = quantity("-", default=0.0, low=0)
+    crankcase: float = quantity("-", default=1.0, low=0)
 
     def crown(self, parameters: Parameters, operation: Operation) -> float:
         """Distance L_P from midpoint to crown [m] (Eq. 63)."""
@@ -173,7 +174,7 @@ class Masses(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class MassModel:
-    """The models of all components.
+    """The models of all components, with room for the pistons unless others are given.
 
     Parameters
     ----------
@@ -195,18 +196,34 @@ class MassModel:
 
     @classmethod
     def with_crankcase(cls) -> MassModel:
-        """The reading that meets the masses of Table 9 to 0.4 %: room beneath the pistons.
+        """The default: a clearance of L beneath each piston, an alternator of 820 kg/m^3.
 
-        The rod is longer by 2 L, the alternator of 820 kg/m^3 (docs/design.md).
+        The reading that meets the masses of Tables 9, 10 and 12 (docs/design.md).
+
+        Returns
+        -------
+        MassModel
+        """
+        return cls()
+
+    @classmethod
+    def as_printed(cls) -> MassModel:
+        """Eq. 63 as printed: no room beneath the pistons, an alternator of 900 kg/m^3.
+
+        The rod is shorter by 2 L.
+
+        Returns
+        -------
+        MassModel
 
         Examples
         --------
         >>> import saleg
-        >>> design = saleg.design.Design(masses=MassModel.with_crankcase())
+        >>> design = saleg.design.Design(masses=MassModel.as_printed())
         >>> round(saleg.design.evaluate(design).moving_mass, 2)
-        2.38
+        2.33
         """
-        return cls(alternator=AlternatorMover(density=820.0), rod=ConnectingRod(crankcase=1.0))
+        return cls(alternator=AlternatorMover(density=900.0), rod=ConnectingRod(crankcase=0.0))
 
     def masses(self, parameters: Parameters, operation: Operation) -> Masses:
         """Masses of the components at an operating point.

@@ -64,7 +64,7 @@ class DesignedState(SteadyState):
 
     @property
     def component_figures(self) -> dict[str, float]:
-        """What the design adds to the figures of the cycle; units in :data:`UNITS`.
+        """What the design adds to the figures of the cycle; units in :data:`COMPONENT_UNITS`.
 
         Without a steady state no mass belongs to the engine: what depends on it is NaN.
         """
@@ -103,7 +103,7 @@ class DesignedState(SteadyState):
 GROUPS = ("stroke_to_bore", "dimensionless_pressure", "dimensionless_heat", "frequency_ratio")
 
 #: Units of :attr:`DesignedState.component_figures`.
-UNITS = {
+COMPONENT_UNITS = {
     "power_density": "W/kg",
     "displacement": "m^3",
     "relative_stroke": "-",

@@ -16,11 +16,13 @@ from saleg.laws import (
     Wiebe,
 )
 from saleg.laws.base import (
+    CHAMBER_SLOTS,
     GasExchange,
     GasProperties,
     HeatRelease,
     HeatTransfer,
     Ignition,
+    Law,
     Misfires,
 )
 from saleg.quantities import Quantities, quantity
@@ -122,6 +124,11 @@ class Chamber(Quantities):
     def area(self) -> float:
         """Area of the bore [m^2]."""
         return math.pi * self.bore**2 / 4.0
+
+    @property
+    def laws(self) -> dict[str, Law]:
+        """Laws of the chamber by slot; only a chamber that burns fuel has laws of combustion."""
+        return {slot: getattr(self, slot) for slot in CHAMBER_SLOTS if hasattr(self, slot)}
 
     @property
     def filling(self) -> Filling:

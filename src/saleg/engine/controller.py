@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from saleg.errors import InvalidController
+from saleg.laws.base import Law
+from saleg.laws.contract import check_laws
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     CONTROL_SLOTS,
@@ -58,6 +60,11 @@ class Controller:
     intake_control: IntakeControl = field(default_factory=RatedIntake)
     actuators: ActuatorLaw = field(default_factory=Actuators)
 
+    @property
+    def laws(self) -> dict[str, Law]:
+        """Laws of the controller by slot; its actuators are not among them."""
+        return {slot: getattr(self, slot) for slot in CONTROL_SLOTS}
+
     def problems(self) -> list[Problem]:
         """Every wrong field; empty when the controller is valid."""
         found = []
@@ -80,6 +87,16 @@ class Controller:
         found = self.problems()
         if found:
             raise InvalidController(found)
+
+    def check_laws(self) -> None:
+        """Refuse laws that cannot be compiled, before any of them is called.
+
+        Raises
+        ------
+        LawError
+            Naming law and method.
+        """
+        check_laws([*self.laws.values(), self.actuators])
 
 
 def check_controller(controller: Any) -> None:

@@ -18,6 +18,7 @@ from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine, SalegWarning
 from saleg.laws import Law, LinearLoad, LinearSprings, ViscousFriction
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
+from saleg.laws.contract import check_laws
 from saleg.quantities import Problem, is_number, problems, unusual
 
 
@@ -90,9 +91,27 @@ class Engine:
         return self.left, self.right
 
     @property
-    def fires(self) -> bool:
+    def has_combustion(self) -> bool:
         """Whether at least one chamber burns fuel."""
         return any(isinstance(chamber, CombustionChamber) for chamber in self.chambers)
+
+    @property
+    def fires(self) -> bool:
+        """Earlier name of :attr:`has_combustion`."""
+        return self.has_combustion
+
+    @property
+    def laws(self) -> dict[str, Law]:
+        """All laws by the path of their slot, such as ``"left.ignition"`` or ``"springs"``."""
+        sides = zip(("left", "right"), self.chambers, strict=True)
+        found = {f"{side}.{slot}": law for side, part in sides for slot, law in part.laws.items()}
+        return found | {slot: getattr(self, slot) for slot in ENGINE_SLOTS}
+
+    @property
+    def needs_motored_pressure(self) -> bool:
+        """Whether a heat-transfer law looks at the motored pressure; it is integrated then."""
+        chambers: tuple[Any, Any] = self.chambers
+        return any(chamber.heat_transfer.needs_motored_pressure for chamber in chambers)
 
     @property
     def maximum_stroke(self) -> float:
@@ -170,6 +189,16 @@ class Engine:
         found = self.problems()
         if found:
             raise InvalidEngine(found)
+
+    def check_laws(self) -> None:
+        """Refuse laws that cannot be compiled, before any of them is called.
+
+        Raises
+        ------
+        LawError
+            Naming law and method.
+        """
+        check_laws(self.laws.values())
 
     def to_toml(self) -> str:
         """The engine as TOML text that :meth:`from_toml` reads back exactly."""

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
 
 from saleg.engine.chambers import Chamber, CombustionChamber
-from saleg.errors import PathsClash, UnknownPath
+from saleg.errors import PathsClash, UnknownPath, nearest
 
 #: An engine: a tree of dataclasses with a left and a right chamber.
 Tree = TypeVar("Tree")
@@ -178,9 +177,7 @@ def with_value(node: Any, chain: tuple[str, ...], value: Any) -> Any:
 
 
 def _suggestion(engine: Any, path: str) -> str:
-    near = difflib.get_close_matches(path, known_paths(engine), n=3, cutoff=0.5)
-    hint = f"; did you mean {' or '.join(repr(name) for name in near)}?" if near else ""
-    return f"no '{path}' in this engine{hint}"
+    return f"no '{path}' in this engine{nearest(path, known_paths(engine))}"
 
 
 def _all_paths(engine: Any) -> Iterator[str]:

@@ -7,7 +7,6 @@ Only numbers and text are ever read; a law is looked up by name among those of :
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import json
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
@@ -26,8 +25,8 @@ from saleg.engine.chambers import (
 )
 from saleg.engine.engine import Engine
 from saleg.engine.start import Start
-from saleg.engine.text_files import read_text
-from saleg.errors import EngineFileError, InvalidEngine, SalegError
+from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest
+from saleg.files.reading import read_text
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.quantities import is_number
 
@@ -83,12 +82,6 @@ def checked_laws(laws: Any, error: type[SalegError]) -> list[type]:
     if wrong:
         raise error(f"laws = {laws!r}: must be a list of classes of laws")
     return listed
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
-    """Text that suggests the known names most like a wrong one; empty if there is none."""
-    close = difflib.get_close_matches(name, list(known), n=3, cutoff=0.5)
-    return f"; did you mean {' or '.join(repr(text) for text in close)}?" if close else ""
 
 
 def to_toml(engine: Engine) -> str:
@@ -257,7 +250,7 @@ class _Reader:
             self.wrong.append(f"{path}.{word} = {name!r}: must be text; one of {names}")
             return None
         slot = next((slot for slot, laws in self.laws.items() if name in laws), None)
-        hint = nearest(str(name), known) or f"; there are {names}"
+        hint = nearest(name, known) or f"; there are {names}"
         if word == LAW and slot is not None:
             hint = f": it fills {slot}; here may stand {names}"
         self.wrong.append(f"{path}.{word} = {name!r}: no such {word}{hint}")

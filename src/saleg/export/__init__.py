@@ -4,6 +4,7 @@ A run becomes tables of columns with units and two texts (:func:`as_tables`); ea
 to a file and back. What is loaded equals what was saved, and nothing is simulated again.
 """
 
+from saleg.errors import RunFileError
 from saleg.export.description import Column, Description, as_tables
 from saleg.export.extras import MissingExtra
 from saleg.export.formats import (
@@ -21,7 +22,6 @@ from saleg.export.formats import (
     save_npz,
 )
 from saleg.export.netcdf import to_xarray
-from saleg.export.place import RunFileError
 from saleg.export.restore import from_tables
 
 __all__ = [

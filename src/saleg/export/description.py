@@ -5,16 +5,16 @@ from __future__ import annotations
 import dataclasses
 import json
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from saleg.engine import Engine
 from saleg.engine.start import Start
 from saleg.engine.toml import laws_by_slot
-from saleg.export.place import RunFileError
+from saleg.errors import RunFileError
 from saleg.export.units import CODES, LAYOUTS
 from saleg.laws.base import Law
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
@@ -67,60 +67,31 @@ class Description:
     engine_toml: str
     run_json: str
     tables: dict[str, Table]
-    is_exact: ClassVar[bool] = True
 
     @property
     def texts(self) -> dict[str, str]:
         """Both texts by name."""
         return {"engine_toml": self.engine_toml, "run_json": self.run_json}
 
-    @property
-    def units(self) -> dict[str, dict[str, str]]:
-        """Units by table and column."""
-        return {
-            name: {column: held.unit for column, held in table.items()}
-            for name, table in self.tables.items()
-        }
 
-    @property
-    def size(self) -> int:
-        """Memory of all columns [bytes]."""
-        return sum(held.values.nbytes for table in self.tables.values() for held in table.values())
-
-    def table(self, name: str) -> dict[str, np.ndarray]:
-        """Values of a table by column."""
-        return {column: held.values for column, held in self.tables[name].items()}
-
-
-class Columns(Protocol):
-    """Columns of a stored table by name, read when asked for."""
-
-    def __getitem__(self, name: str, /) -> Any:
-        """Array, or what gives one when indexed with ``()``; KeyError if there is none."""
-
-
-class Stored(Protocol):
-    """A run as a format finds it in a file.
+class Stored(NamedTuple):
+    """A run as a file holds it.
 
     Attributes
     ----------
+    engine_toml, run_json : str
+        As in a :class:`Description`.
+    column : callable
+        Reads a column, given the names of its table and of itself; KeyError if there is none.
     is_exact : bool
         Whether the numbers are there bit by bit, so that their checksums must agree; that of the
         texts always must.
     """
 
-    is_exact: ClassVar[bool]
-
-    @property
-    def engine_toml(self) -> str:
-        """The engine."""
-
-    @property
-    def run_json(self) -> str:
-        """Everything else that is no table."""
-
-    def table(self, name: str) -> Columns:
-        """Columns of a table."""
+    engine_toml: str
+    run_json: str
+    column: Callable[[str, str], np.ndarray]
+    is_exact: bool = True
 
 
 def as_tables(run: Run) -> Description:

@@ -8,14 +8,14 @@ from os import PathLike
 from pathlib import Path
 from types import ModuleType
 
-from saleg.engine.text_files import as_path, is_folder
 from saleg.engine.toml import checked_laws
-from saleg.errors import SalegError
+from saleg.errors import RunFileError, SalegError
 from saleg.export import csv_folder, hdf5, matlab, netcdf, npz
 from saleg.export.description import as_tables
 from saleg.export.extras import MissingExtra, extra
-from saleg.export.place import RunFileError, new_file, new_folder
-from saleg.export.restore import from_tables
+from saleg.export.restore import restored
+from saleg.files.atomic import new_file, new_folder
+from saleg.files.reading import as_path, is_folder
 from saleg.simulation.run import Run
 
 #: Format of a file by its suffix; a name without one is a folder of CSV tables.
@@ -139,7 +139,7 @@ def _load(form: ModuleType, path: AnyPath, laws: Sequence[type]) -> Run:
         raise RunFileError(f"{path} is a {'folder' if folder else 'file'}, no {form.KIND}")
     checked_laws(laws, RunFileError)
     with _naming(path, form.KIND), form.opened(path) as stored:
-        return from_tables(stored, laws)
+        return restored(stored, laws)
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.export.description import Column, Columns, Description
+from saleg.export.description import Column, Description, Stored
 from saleg.export.extras import extra
 
 KIND = "HDF5 file"
@@ -44,7 +44,9 @@ def write(description: Description, path: Path) -> None:
 @contextmanager
 def writing(description: Description, path: Path) -> Iterator[None]:
     """Refuse a disk without room, on which the HDF5 library can crash the whole process."""
-    if shutil.disk_usage(path.parent).free < description.size + OVERHEAD:
+    columns = [column for table in description.tables.values() for column in table.values()]
+    size = sum(column.values.nbytes for column in columns)
+    if shutil.disk_usage(path.parent).free < size + OVERHEAD:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     try:
         yield
@@ -52,23 +54,9 @@ def writing(description: Description, path: Path) -> Iterator[None]:
         raise OSError(str(error)) from error
 
 
-class _Stored:
-    """What an open file holds."""
-
-    is_exact = True
-
-    def __init__(self, file: Any):
-        self._file = file
-        self.engine_toml = str(file.attrs["engine_toml"])
-        self.run_json = str(file.attrs["run_json"])
-
-    def table(self, name: str) -> Columns:
-        """Columns of a table, read one by one."""
-        return self._file[name]
-
-
 @contextmanager
-def opened(path: Path) -> Iterator[_Stored]:
+def opened(path: Path) -> Iterator[Stored]:
     """Open a file for reading, column by column."""
     with extra("h5py").File(path, "r") as file:
-        yield _Stored(file)
+        texts = str(file.attrs["engine_toml"]), str(file.attrs["run_json"])
+        yield Stored(*texts, lambda table, name: file[table][name][()])

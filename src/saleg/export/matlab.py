@@ -6,13 +6,14 @@ import re
 import zlib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 
-from saleg.export.description import Description
-from saleg.export.place import RunFileError
+from saleg.errors import RunFileError
+from saleg.export.description import Description, Stored
 from saleg.export.units import CODES, LAYOUTS
 
 KIND = "MATLAB file"
@@ -110,34 +111,26 @@ def _refuse_damaged(path: Path) -> None:
             raise RunFileError("it is damaged or was cut short")
 
 
-class _Stored:
-    """What a file holds; its tables are read one at a time."""
-
-    is_exact = True
-
-    def __init__(self, path: Path):
-        self._path = path
-        texts = self._read("engine_toml", "run_json")
-        self.engine_toml, self.run_json = (str(texts[name][0]) for name in texts)
-
-    def _read(self, *names: str) -> dict[str, Any]:
-        from scipy.io import loadmat
-
-        found = loadmat(self._path, appendmat=False, variable_names=names)
-        return {name: found[name] for name in names}
-
-    def table(self, name: str) -> dict[str, np.ndarray]:
-        """Columns of a table."""
-        struct = self._read(name)[name]
-        held = set(struct.dtype.names)
-        legal = legal_names(LAYOUTS[name].places)
-        return {
-            column: struct[word][0, 0].reshape(-1) for column, word in legal.items() if word in held
-        }
-
-
 @contextmanager
-def opened(path: Path) -> Iterator[_Stored]:
+def opened(path: Path) -> Iterator[Stored]:
     """Look into a file for reading, table by table."""
+    from scipy.io import loadmat
+
     _refuse_damaged(path)
-    yield _Stored(path)
+
+    def variables(*names: str) -> list[Any]:
+        found = loadmat(path, appendmat=False, variable_names=names)
+        return [found[name] for name in names]
+
+    @lru_cache(maxsize=1)
+    def struct(table: str) -> np.ndarray:
+        return variables(table)[0][0, 0]
+
+    def column(table: str, name: str) -> np.ndarray:
+        word = legal_names(LAYOUTS[table].places)[name]
+        if word not in (struct(table).dtype.names or ()):
+            raise KeyError(name)
+        return struct(table)[word].reshape(-1)
+
+    engine_toml, run_json = (str(text[0]) for text in variables("engine_toml", "run_json"))
+    yield Stored(engine_toml, run_json, column)

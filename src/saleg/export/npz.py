@@ -7,12 +7,11 @@ import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from saleg.export.description import Description
-from saleg.export.place import RunFileError
+from saleg.errors import RunFileError
+from saleg.export.description import Description, Stored
 from saleg.export.units import CODES
 
 KIND = "npz file"
@@ -25,9 +24,13 @@ def write(description: Description, path: Path) -> None:
         for table, columns in description.tables.items()
         for name, column in columns.items()
     }
+    units = {
+        table: {name: column.unit for name, column in columns.items()}
+        for table, columns in description.tables.items()
+    }
     texts = {
         **description.texts,
-        "units_json": json.dumps(description.units, indent=1),
+        "units_json": json.dumps(units, indent=1),
         "codes_json": json.dumps(CODES, indent=1),
     }
     arrays |= {name: np.array(text) for name, text in texts.items()}
@@ -38,35 +41,11 @@ def write(description: Description, path: Path) -> None:
                 np.lib.format.write_array(file, values, allow_pickle=False)
 
 
-class _Stored:
-    """What an open file holds."""
-
-    is_exact = True
-
-    def __init__(self, arrays: Any):
-        self._arrays = arrays
-        self.engine_toml = str(arrays["engine_toml"])
-        self.run_json = str(arrays["run_json"])
-
-    def table(self, name: str) -> _Columns:
-        """Columns of a table."""
-        return _Columns(self._arrays, name)
-
-
-class _Columns:
-    """Columns of one table, read one by one."""
-
-    def __init__(self, arrays: Any, table: str):
-        self._arrays, self._table = arrays, table
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        return self._arrays[f"{self._table}.{name}"]
-
-
 @contextmanager
-def opened(path: Path) -> Iterator[_Stored]:
+def opened(path: Path) -> Iterator[Stored]:
     """Open a file for reading, column by column."""
     if not zipfile.is_zipfile(path):
         raise RunFileError("it is not an npz file, or it was cut short")
     with open(path, "rb") as file, np.load(file, allow_pickle=False) as arrays:
-        yield _Stored(arrays)
+        texts = str(arrays["engine_toml"]), str(arrays["run_json"])
+        yield Stored(*texts, lambda table, name: arrays[f"{table}.{name}"])

@@ -12,28 +12,27 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.engine.toml import read_toml
-from saleg.errors import SalegError
+from saleg.errors import RunFileError, SalegError
 from saleg.export.description import (
     FORMAT,
     FORMAT_VERSION,
     PLAIN,
+    Description,
     Stored,
     checksum,
     checksum_of_texts,
 )
-from saleg.export.place import RunFileError
 from saleg.export.units import LAYOUTS
 from saleg.simulation.run import Run
 from saleg.status import Status
 
 
-def from_tables(stored: Stored, laws: Sequence[type] = ()) -> Run:
+def from_tables(description: Description, laws: Sequence[type] = ()) -> Run:
     """Make a run from its description; nothing is simulated again.
 
     Parameters
     ----------
-    stored : Stored
-        A :class:`~saleg.export.description.Description`, or what a file holds.
+    description : Description
     laws : sequence of Law or Start classes, optional
         Classes of your own that the engine uses.
 
@@ -47,6 +46,13 @@ def from_tables(stored: Stored, laws: Sequence[type] = ()) -> Run:
     RunFileError
         Saying what is missing or strange.
     """
+    tables = description.tables
+    texts = description.engine_toml, description.run_json
+    return restored(Stored(*texts, lambda table, name: tables[table][name].values), laws)
+
+
+def restored(stored: Stored, laws: Sequence[type] = ()) -> Run:
+    """Make a run from what a file holds; as :func:`from_tables`."""
     facts = _facts(stored)
     engine = _engine(stored.engine_toml, facts["laws_not_of_saleg"], laws)
     rows = {name: _rows(stored, name, count) for name, count in facts["rows"].items()}
@@ -120,10 +126,9 @@ def _engine(text: str, needed: Sequence[str], laws: Sequence[type]) -> Engine:
 def _rows(stored: Stored, table: str, count: int) -> np.ndarray:
     """Records of a table, filled column by column."""
     dtype, places = LAYOUTS[table]
-    columns = stored.table(table)
     rows = np.zeros(0, dtype)
     for name, place in places.items():
-        values = columns[name][()]
+        values = stored.column(table, name)
         if values.shape != (count,):
             raise RunFileError(
                 f"{table}.{name} should have {count} rows but has {values.size}: "

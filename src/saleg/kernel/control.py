@@ -1,14 +1,13 @@
-"""What a controller is shown and what it sets at a dead centre.
+"""Signals and commands of a controller at a dead centre.
 
 A controller is compiled by itself (:mod:`saleg.compiler.controllers`), so that another one needs
-no other kernel; `control` is the address of its function, its numbers, and scratch arrays for what
-it holds, is shown and commands.
+no other kernel; `control` is a :class:`saleg.kernel.tuples.Control`.
 """
 
 from math import inf, isfinite, nan, pi
 
 from saleg.kernel.jit import compiled, inline
-from saleg.kernel.layout import CONTROL_PARTS, HELD
+from saleg.kernel.layout import CONTROL_PARTS, MEMORY
 from saleg.kernel.rhs import motor_angle
 from saleg.kernel.slots import actuators_follow, actuators_refused, call_at
 from saleg.laws.arguments import Commands
@@ -16,78 +15,89 @@ from saleg.laws.arguments import Commands
 
 @compiled
 def write_signals(E, signals):
-    """What is measured at a dead centre, in the order of :class:`saleg.laws.Signals`."""
+    """Fill a record of :class:`saleg.laws.Signals` with the measurements of a dead centre."""
     half = 0.5 * E.maximum_stroke
-    signals[0] = E.t
-    signals[1] = E.x_dead_centre
-    signals[2] = E.direction
-    signals[3] = E.stroke
-    signals[4] = (half + 0.5 * E.stroke) / (half - 0.5 * E.stroke)
-    signals[5] = 0.5 / E.stroke_duration if E.stroke_duration > 0.0 else 0.0
-    signals[6] = E.power
-    signals[7] = E.regulated_weight
-    signals[8] = E.motoring
-    signals[9] = E.motoring
-    signals[10] = E.maximum_stroke
-    signals[11] = E.rated_equivalence_ratio
-    signals[12] = E.rated_intake_temperature
+    signals.t = E.t
+    signals.x = E.x_dead_centre
+    signals.direction = E.direction
+    signals.stroke = E.stroke
+    signals.compression_ratio = (half + 0.5 * E.stroke) / (half - 0.5 * E.stroke)
+    signals.frequency = 0.5 / E.stroke_duration if E.stroke_duration > 0.0 else 0.0
+    signals.power = E.power
+    signals.regulated_weight = E.regulated_weight
+    signals.motoring = E.motoring
+    signals.was_motoring = E.motoring
+    signals.maximum_stroke = E.maximum_stroke
+    signals.rated_equivalence_ratio = E.rated_equivalence_ratio
+    signals.rated_intake_temperature = E.rated_intake_temperature
+
+
+@inline
+def commands_of(record):
+    """Commands from a record of them."""
+    return Commands(
+        motoring=record.motoring,
+        load_weight=record.load_weight,
+        amplitude=record.amplitude,
+        frequency=record.frequency,
+        sweep=record.sweep,
+        sets_phase=record.sets_phase,
+        phase=record.phase,
+        equivalence_ratio=record.equivalence_ratio,
+        intake_temperature=record.intake_temperature,
+    )
 
 
 @compiled
 def ask(E, control):
-    """Commands of the controller; what it holds travels with the engine's record."""
-    address, numbers, held, signals, commands = control
-    write_signals(E, signals)
-    for n in range(CONTROL_PARTS * HELD):
-        held[n] = E.held[n]
-    for n in range(commands.shape[0]):
-        commands[n] = nan  # stays where the controller fails
+    """Commands of the controller; the memory of its parts travels with the engine's record."""
+    memory, signals, commands = control.memory, control.signals, control.commands
+    write_signals(E, signals[0])
+    for n in range(CONTROL_PARTS * MEMORY):
+        memory[n] = E.memory[n]
+    commands[0] = commands[1]  # NaN, which stays where the controller fails
     call_at(
-        address, numbers.ctypes.data, held.ctypes.data, signals.ctypes.data, commands.ctypes.data
+        control.address,
+        control.numbers.ctypes.data,
+        memory.ctypes.data,
+        signals.ctypes.data,
+        commands.ctypes.data,
     )
-    if isfinite(commands[0]):
-        for n in range(CONTROL_PARTS * HELD):
-            E.held[n] = held[n]
+    if isfinite(commands[0].motoring):
+        for n in range(CONTROL_PARTS * MEMORY):
+            E.memory[n] = memory[n]
+    return commands_of(commands[0])
+
+
+@inline
+def in_force(E, load_weight, amplitude, equivalence_ratio, intake_temperature):
+    """Commands in force, with these values of the quantities whose actuators may lag."""
     return Commands(
-        commands[0],
-        commands[1],
-        commands[2],
-        commands[3],
-        commands[4],
-        commands[5],
-        commands[6],
-        commands[7],
-        commands[8],
+        motoring=E.motoring,
+        load_weight=load_weight,
+        amplitude=amplitude,
+        frequency=E.motor_frequency,
+        sweep=E.motor_sweep,
+        sets_phase=0.0,
+        phase=0.0,
+        equivalence_ratio=equivalence_ratio,
+        intake_temperature=intake_temperature,
     )
 
 
 @inline
 def standing(E):
-    """Where the actuators stand."""
-    return Commands(
-        E.motoring,
-        E.load_weight,
-        E.motor_amplitude,
-        E.motor_frequency,
-        E.motor_sweep,
-        0.0,
-        0.0,
-        E.equivalence_ratio,
-        E.intake_temperature,
-    )
+    """Commands as far as the actuators have followed them."""
+    return in_force(E, E.load_weight, E.motor_amplitude, E.equivalence_ratio, E.intake_temperature)
 
 
 @inline
 def asked(E):
-    """What they were asked for last."""
-    return Commands(
-        E.motoring,
+    """Commands as they were given last."""
+    return in_force(
+        E,
         E.asked_load_weight,
         E.asked_amplitude,
-        E.motor_frequency,
-        E.motor_sweep,
-        0.0,
-        0.0,
         E.asked_equivalence_ratio,
         E.asked_intake_temperature,
     )
@@ -95,7 +105,7 @@ def asked(E):
 
 @compiled
 def obey(P, E, C, wanted, elapsed):
-    """Set what is commanded, as far as the actuators follow; refuse what they cannot do.
+    """Set commands, as far as the actuators follow; refuse what they cannot do.
 
     They have moved towards what was asked for last in the time elapsed since, for ever if this is
     the first command; towards what is wanted now they begin to move.

@@ -6,7 +6,7 @@ from saleg.kernel.slots import (
     intake_control_temperature,
     load_control_weight,
     motor_control_drive,
-    state_logic_motors,
+    state_logic_is_motor,
 )
 from saleg.laws.arguments import Commands, Signals
 
@@ -15,36 +15,36 @@ from saleg.laws.arguments import Commands, Signals
 def with_motoring(s, motoring):
     """The same signals with what the state logic has decided."""
     return Signals(
-        s.t,
-        s.x,
-        s.direction,
-        s.stroke,
-        s.compression_ratio,
-        s.frequency,
-        s.power,
-        s.regulated_weight,
-        motoring,
-        s.was_motoring,
-        s.maximum_stroke,
-        s.rated_equivalence_ratio,
-        s.rated_intake_temperature,
+        t=s.t,
+        x=s.x,
+        direction=s.direction,
+        stroke=s.stroke,
+        compression_ratio=s.compression_ratio,
+        frequency=s.frequency,
+        power=s.power,
+        regulated_weight=s.regulated_weight,
+        motoring=motoring,
+        was_motoring=s.was_motoring,
+        maximum_stroke=s.maximum_stroke,
+        rated_equivalence_ratio=s.rated_equivalence_ratio,
+        rated_intake_temperature=s.rated_intake_temperature,
     )
 
 
 @compiled
-def decide(P, held, measured):
+def decide(P, memory, measured):
     """Commands of the parts of the controller, each with the numbers it holds."""
-    motoring = state_logic_motors(P, held[0], measured)
+    motoring = state_logic_is_motor(P, memory[0], measured)
     signals = with_motoring(measured, motoring)
-    drive = motor_control_drive(P, held[1], signals)
+    drive = motor_control_drive(P, memory[1], signals)
     return Commands(
-        motoring,
-        load_control_weight(P, held[2], signals),
-        drive.amplitude,
-        drive.frequency,
-        drive.sweep,
-        drive.sets_phase,
-        drive.phase,
-        fuel_control_equivalence_ratio(P, held[3], signals),
-        intake_control_temperature(P, held[4], signals),
+        motoring=motoring,
+        load_weight=load_control_weight(P, memory[2], signals),
+        amplitude=drive.amplitude,
+        frequency=drive.frequency,
+        sweep=drive.sweep,
+        sets_phase=drive.sets_phase,
+        phase=drive.phase,
+        equivalence_ratio=fuel_control_equivalence_ratio(P, memory[3], signals),
+        intake_temperature=intake_control_temperature(P, memory[4], signals),
     )

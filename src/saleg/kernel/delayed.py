@@ -19,7 +19,7 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.peaks import watch_point
 from saleg.kernel.rhs import chamber_rates, rates_of_motion, refresh
-from saleg.kernel.switch import switch
+from saleg.kernel.switch import has_room, switch
 
 
 @compiled
@@ -33,7 +33,7 @@ def lagging_rhs(P, E, C, t, y, dy, delay, late_force, motored):
 
 
 @cached
-def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled, work, control):
+def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, tables, work, control):
     """Run to the end with the gas force `delay` steps late.
 
     `forces` is a ring of the last gas forces, longer than the delay, filled with the first one.
@@ -43,7 +43,7 @@ def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled,
     size = forces.shape[0]
     refresh(P, E, C, y)
     while E.t < O.t_end:
-        if strokes.shape[0] - filled[0] < 1 or events.shape[0] - filled[1] < 12:
+        if not has_room(O, tables):
             return BUFFER_FULL
         now = int(E.grid) % size
         late = forces[(now - delay) % size]
@@ -67,7 +67,7 @@ def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, strokes, events, filled,
             E.direction = copysign(1.0, y[V])
         watch_point(C, y, k1, peaks)
         landed = DEAD_CENTRE if E.direction * y[V] < 0.0 else -1
-        switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control)
+        switch(P, E, C, O, y, landed, peaks, tables, control)
         short = E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke
         if landed == DEAD_CENTRE and short:
             return STALLED

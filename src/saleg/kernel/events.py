@@ -4,6 +4,7 @@ from math import exp, inf, isfinite, log, log1p, sqrt
 
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    BREAKPOINT,
     BURNING,
     CLOSED,
     DEAD_CENTRE,
@@ -11,7 +12,6 @@ from saleg.kernel.layout import (
     G0,
     HEAD,
     IGNITION,
-    KINK,
     LIGHT,
     N_ALL,
     N_EVENTS,
@@ -21,7 +21,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import height_of, ln_temperature, rhs
+from saleg.kernel.rhs import clearance_of, ln_temperature, rhs
 from saleg.kernel.step import take_step
 
 
@@ -29,7 +29,7 @@ from saleg.kernel.step import take_step
 def event_is_possible(E, C, event):
     """Whether an event can happen in the present mode and direction.
 
-    Between two dead centres every height changes one way, so a port can be crossed once only.
+    Between two dead centres every clearance changes one way, so a port can be crossed once only.
     """
     if event == DEAD_CENTRE:
         return E.direction != 0.0
@@ -38,10 +38,10 @@ def event_is_possible(E, C, event):
     outward = c.sign * E.direction
     if event < LIGHT:
         return outward < 0.0 if c.mode == OPEN else outward > 0.0
-    if event < KINK:
+    if event < BREAKPOINT:
         return c.mode == CLOSED and c.armed > DISARMED
     if event < HEAD:
-        return c.mode != OPEN and c.ln_kink > 0.0
+        return c.mode != OPEN and c.ln_breakpoint > 0.0
     return outward < 0.0 and c.mode != OPEN
 
 
@@ -53,13 +53,13 @@ def event_value(E, C, event, y):
     side = (event - 1) % 2
     c = C[side]
     if event < LIGHT:
-        beyond = height_of(C, side, y[X]) - c.port
+        beyond = clearance_of(C, side, y[X]) - c.port
         return -beyond if c.mode == OPEN else beyond
-    if event < KINK:
+    if event < BREAKPOINT:
         return y[IGNITION + side] - 1.0
     if event < HEAD:
-        return c.beyond_kink * (c.ln_kink - ln_temperature(C, side, y))
-    return c.head_gap - height_of(C, side, y[X])
+        return c.beyond_breakpoint * (c.ln_breakpoint - ln_temperature(C, side, y))
+    return c.head_gap - clearance_of(C, side, y[X])
 
 
 @inline
@@ -71,11 +71,11 @@ def event_rate(E, C, event, y, dy):
     c = C[side]
     if event < LIGHT:
         return -c.sign * y[V] if c.mode == OPEN else c.sign * y[V]
-    if event < KINK:
+    if event < BREAKPOINT:
         return dy[IGNITION + side]
     if event < HEAD:
-        height = height_of(C, side, y[X])
-        return -c.beyond_kink * (dy[THETA + side] + (1.0 - G0) * c.sign * y[V] / height)
+        clearance = clearance_of(C, side, y[X])
+        return -c.beyond_breakpoint * (dy[THETA + side] + (1.0 - G0) * c.sign * y[V] / clearance)
     return -c.sign * y[V]
 
 
@@ -87,11 +87,11 @@ def land(C, event, y):
     elif event < LIGHT:
         c = C[(event - 1) % 2]
         y[X] = c.sign * (c.port - c.half_stroke)
-    elif event < KINK:
+    elif event < BREAKPOINT:
         y[IGNITION + (event - 1) % 2] = 1.0
     elif event < HEAD:
         c = C[(event - 1) % 2]
-        c.beyond_kink = -c.beyond_kink
+        c.beyond_breakpoint = -c.beyond_breakpoint
 
 
 @inline
@@ -136,7 +136,7 @@ def guessed_time(E, C, event, h, y, y_new, dy, dy_new):
     g1, r1 = event_value(E, C, event, y_new), event_rate(E, C, event, y_new, dy_new)
     if g0 >= 0.0 or h <= 0.0:
         return 0.0
-    if LIGHT <= event < KINK and g0 > -0.9:  # the integral grows about exponentially
+    if LIGHT <= event < BREAKPOINT and g0 > -0.9:  # the integral grows about exponentially
         g0, r0, g1, r1 = log1p(g0), r0 / (1.0 + g0), log1p(g1), r1 / (1.0 + g1)
     return cubic_root(g0, r0, g1, r1, h)
 
@@ -186,7 +186,7 @@ def locate(P, E, C, O, tableau, t, h, guess, y, k, y_new, event):
     is that of one Runge-Kutta step to it, so the order of the method is kept. The last small
     correction is made along a cubic, whose error is then far below that of the step.
     """
-    stages = tableau[1].shape[0]
+    stages = tableau.b.shape[0]
     before = event_value(E, C, event, y)
     if before >= 0.0 and event_rate(E, C, event, y, k[0]) > 0.0:
         take_step(P, E, C, tableau, t, 0.0, y, k, y_new, O.motored)
@@ -255,7 +255,7 @@ def is_sound(C, y):
     for n in range(N_ALL):
         if not isfinite(y[n]):
             return False
-    return height_of(C, 0, y[X]) > 0.0 and height_of(C, 1, y[X]) > 0.0
+    return clearance_of(C, 0, y[X]) > 0.0 and clearance_of(C, 1, y[X]) > 0.0
 
 
 @compiled
@@ -271,7 +271,7 @@ def next_time_event(C, t_end):
 @inline
 def ln_pressure(C, side, x, theta):
     """Natural logarithm of the pressure in a closed chamber."""
-    return theta - G0 * log(height_of(C, side, x) / C[side].half_stroke)
+    return theta - G0 * log(clearance_of(C, side, x) / C[side].half_stroke)
 
 
 @inline
@@ -281,4 +281,4 @@ def pressure_and_temperature(C, side, y):
     if c.mode == OPEN:
         return c.intake_pressure, c.intake_temperature
     p = exp(ln_pressure(C, side, y[X], y[THETA + side]))
-    return p, p * c.area * height_of(C, side, y[X]) / (c.mass * c.gas_constant)
+    return p, p * c.area * clearance_of(C, side, y[X]) / (c.mass * c.gas_constant)

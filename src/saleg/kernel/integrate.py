@@ -23,7 +23,7 @@ from saleg.kernel.layout import (
     END_OF_TIME,
     HEAD,
     HEAD_CONTACT,
-    MOST_STEPS,
+    MAX_STEPS,
     N_ALL,
     N_PEAKS,
     PEAK_PRESSURE,
@@ -35,12 +35,12 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.observe import observe
 from saleg.kernel.peaks import watch_point, watch_step
-from saleg.kernel.rhs import height_of, refresh, rhs
+from saleg.kernel.rhs import clearance_of, refresh, rhs
 from saleg.kernel.step import error_norm, take_step
-from saleg.kernel.switch import switch
+from saleg.kernel.switch import has_room, switch
 
 # Logarithm of the least error the controller remembers of a step.
-LEAST_LN_ERROR = -9.21
+MIN_LN_ERROR = -9.21
 
 
 @inline
@@ -58,7 +58,7 @@ def proposed_end(E, O, t_event):
 def compression(C, y, y_new):
     """Clearance on the side that is compressed at the end of a step over that at its begin."""
     side = 0 if y_new[V] < 0.0 else 1
-    return min(height_of(C, side, y_new[X]) / height_of(C, side, y[X]), 1.0)
+    return min(clearance_of(C, side, y_new[X]) / clearance_of(C, side, y[X]), 1.0)
 
 
 @compiled
@@ -73,7 +73,7 @@ def control_step(E, C, order, h, error, was_rejected, y, y_new):
     ln_error = log(max(error, 1e-10))
     factor = 0.9 * exp(beta * E.ln_last_error - exponent * ln_error)
     factor = min(max(factor, 0.2), 1.0 if was_rejected else 6.0)
-    E.ln_last_error = max(ln_error, LEAST_LN_ERROR)
+    E.ln_last_error = max(ln_error, MIN_LN_ERROR)
     E.next_step = h * factor * compression(C, y, y_new)
 
 
@@ -125,7 +125,7 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
 @compiled
 def advance_to_event(P, E, C, O, tableau, h, aim, y, k, y_new):
     """End the step just taken on the first event in it; returns its length and the event."""
-    stages = tableau[1].shape[0]
+    stages = tableau.b.shape[0]
     landed = -1
     if aim >= 0:
         length = reached(P, E, C, O, stages, E.t, h, y, k, y_new, aim)
@@ -143,17 +143,16 @@ def advance_to_event(P, E, C, O, tableau, h, aim, y, k, y_new):
 
 
 @compiled
-def keep_snapshot(E1, C, y, snapshot):
+def keep_snapshot(E1, C, y, snapshots):
     """Remember the state at a left dead centre; the one before moves to second place."""
-    E_kept, C_kept, y_kept = snapshot
-    E_kept[1] = E_kept[0]
-    E_kept[0] = E1[0]
+    snapshots.engine[1] = snapshots.engine[0]
+    snapshots.engine[0] = E1[0]
     for side in range(2):
-        C_kept[1, side] = C_kept[0, side]
-        C_kept[0, side] = C[side]
+        snapshots.chambers[1, side] = snapshots.chambers[0, side]
+        snapshots.chambers[0, side] = C[side]
     for n in range(N_ALL):
-        y_kept[1, n] = y_kept[0, n]
-        y_kept[0, n] = y[n]
+        snapshots.y[1, n] = snapshots.y[0, n]
+        snapshots.y[0, n] = y[n]
 
 
 @compiled
@@ -169,77 +168,58 @@ def accept(E, O, h, full, end, y, y_new, k, stages):
 
 
 @compiled
-def observe_within(P, E, C, O, tableau, h, y, k, spare, history, filled):
+def observe_now(P, E, C, O, y, dy, tables):
+    """Record the instant of a state."""
+    filled = tables.filled[0]
+    observe(P, E, C, y, dy, O.motored, tables.history[filled.history])
+    filled.history += 1
+
+
+@compiled
+def observe_within(P, E, C, O, tableau, h, y, k, spare, tables):
     """Record instants within a step, each reached by a shorter step of the same method."""
-    stages = tableau[1].shape[0]
-    _, _, spare_k, inner, _ = spare
+    stages = tableau.b.shape[0]
     t = E.t
     for i in range(1, O.dense + 1):
         part = h * i / (O.dense + 1.0)
         for n in range(N_ALL):
-            spare_k[0, n] = k[0, n]
-        take_step(P, E, C, tableau, t, part, y, spare_k, inner, O.motored)
+            spare.rates[0, n] = k[0, n]
+        take_step(P, E, C, tableau, t, part, y, spare.rates, spare.y_new, O.motored)
         E.t = t + part
-        observe(P, E, C, inner, spare_k[stages], O.motored, history[filled[2]])
-        filled[2] += 1
+        observe_now(P, E, C, O, spare.y_new, spare.rates[stages], tables)
     E.t = t
 
 
-@inline
-def has_room(O, strokes, events, history, filled):
-    """Whether one more step can be recorded."""
-    return (
-        strokes.shape[0] - filled[0] >= 1
-        and (O.events == 0 or events.shape[0] - filled[1] >= 12)
-        and (O.history == 0 or history.shape[0] - filled[2] >= 2 + O.dense)
-    )
-
-
 @cached
-def run_on(
-    P1,
-    E1,
-    C,
-    y,
-    peaks,
-    tableau,
-    order,
-    O1,
-    strokes,
-    events,
-    history,
-    filled,
-    snapshot,
-    work,
-    control,
-):
-    """Integrate until the end, a buffer is full, or nothing more can be done.
+def run_on(run):
+    """Integrate until the end, a table is full, or nothing more can be done.
 
-    Returns one of the codes of :mod:`saleg.kernel.layout`. All state is in the arguments, so a
-    call continues where the one before stopped. `work` is scratch space, made by the caller.
+    Takes an :class:`~saleg.kernel.tuples.Integration` and returns one of the codes of
+    :mod:`saleg.kernel.layout`. All state is in the arguments, so a call continues where the one
+    before stopped.
     """
-    P, E, O = P1[0], E1[0], O1[0]
-    stages = tableau[1].shape[0]
-    k, y_new, spare = work
-    spare[4][N_PEAKS] = 0.0
+    P, E, C, y, O = run.laws[0], run.engine[0], run.chambers, run.y, run.options[0]
+    peaks, tables, tableau, control = run.peaks, run.tables, run.tableau, run.control
+    k, y_new, spare = run.scratch.rates, run.scratch.y_new, run.scratch.spare
+    stages = tableau.b.shape[0]
+    spare.trail[N_PEAKS] = 0.0
     last_step = E.steps + O.max_steps
     refresh(P, E, C, y)
     # What is due at the start.
-    switch(P, E, C, O, y, -1, peaks, strokes, events, filled, control)
+    switch(P, E, C, O, y, -1, peaks, tables, control)
     rhs(P, E, C, E.t, y, k[0], O.motored)
     E.evaluations += 1.0
     if peaks[PEAK_PRESSURE] == 0.0:  # nothing of this stroke has been watched yet
         watch_point(C, y, k[0], peaks)
-    if O.history > 0 and filled[2] == 0:
-        observe(P, E, C, y, k[0], O.motored, history[0])
-        filled[2] = 1
+    if O.history > 0 and tables.filled[0].history == 0:
+        observe_now(P, E, C, O, y, k[0], tables)
     while E.t < O.t_end:
-        if E.steps >= last_step or not has_room(O, strokes, events, history, filled):
+        if E.steps >= last_step or not has_room(O, tables):
             return BUFFER_FULL
-        if O.adaptive == 1 and E.steps - E.steps_at_dead_centre > MOST_STEPS:
+        if O.adaptive == 1 and E.steps - E.steps_at_dead_centre > MAX_STEPS:
             return TOO_MANY_STEPS
         t_event = next_time_event(C, O.t_end)
-        full, end, aim = good_step(P, E, C, O, tableau, order, t_event, y, k, y_new)
+        full, end, aim = good_step(P, E, C, O, tableau, run.order, t_event, y, k, y_new)
         if full < 0.0:
             return STEP_FAILURE
         if E.direction == 0.0:
@@ -248,26 +228,24 @@ def run_on(
         if O.peaks > 0:
             watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare)
         if O.dense > 0:
-            observe_within(P, E, C, O, tableau, h, y, k, spare, history, filled)
+            observe_within(P, E, C, O, tableau, h, y, k, spare, tables)
         accept(E, O, h, full, end, y, y_new, k, stages)
         if landed >= 0:
             watch_point(C, y, k[0], peaks)
         if O.history > 0 and (landed >= 0 or E.steps % O.history < 1.0):
-            observe(P, E, C, y, k[0], O.motored, history[filled[2]])
-            filled[2] += 1
-        if switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control):
-            spare[4][N_PEAKS] = 0.0
+            observe_now(P, E, C, O, y, k[0], tables)
+        if switch(P, E, C, O, y, landed, peaks, tables, control):
+            spare.trail[N_PEAKS] = 0.0
             rhs(P, E, C, E.t, y, k[0], O.motored)
             E.evaluations += 1.0
             watch_point(C, y, k[0], peaks)
             if O.history > 0:
-                observe(P, E, C, y, k[0], O.motored, history[filled[2]])
-                filled[2] += 1
+                observe_now(P, E, C, O, y, k[0], tables)
         if landed >= HEAD:
             return HEAD_CONTACT
         if landed == DEAD_CENTRE:
             if E.direction > 0.0:
-                keep_snapshot(E1, C, y, snapshot)
+                keep_snapshot(run.engine, C, y, run.snapshots)
             if E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke:
                 return STALLED
             if E.fault != 0.0:

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from saleg.laws.arguments import Commands, Signals
+
 # Sides.
 LEFT = 0
 RIGHT = 1
@@ -66,13 +68,13 @@ NO_DEAD_CENTRE = 6
 NOT_FOUND = 7
 CONTROLLER_FAULT = 8
 # Steps of the adaptive method in one stroke beyond which an engine is too stiff for it.
-MOST_STEPS = 1_000_000.0
+MAX_STEPS = 1_000_000.0
 
 # Events, in the order they are looked for; one per side from PORT on.
 DEAD_CENTRE = 0
 PORT = 1
 LIGHT = 3
-KINK = 5
+BREAKPOINT = 5
 HEAD = 7
 N_EVENTS = 9
 # Kinds in the event table.
@@ -105,7 +107,7 @@ COMPILED = 1
 IN_PYTHON = 2
 # Parts of a controller that hold numbers, and how many each.
 CONTROL_PARTS = 5
-HELD = 4
+MEMORY = 4
 
 #: State of the engine beside the state vector, with what it needs at every evaluation.
 ENGINE_RECORD = np.dtype(
@@ -167,7 +169,7 @@ ENGINE_RECORD = np.dtype(
             "asked_intake_temperature",
         )
     ]
-    + [("held", np.float64, (CONTROL_PARTS * HELD,))]
+    + [("memory", np.float64, (CONTROL_PARTS * MEMORY,))]
 )
 
 #: One chamber: geometry and intake, then what stands in it, then what the stroke has seen so far.
@@ -218,8 +220,8 @@ CHAMBER_RECORD = np.dtype(
             "ln_volume",
             "ln_mass_gas",
             "per_mass_gas",
-            "ln_kink",
-            "beyond_kink",
+            "ln_breakpoint",
+            "beyond_breakpoint",
             "heat_first",
             "heat_second",
             "heat_third",
@@ -230,7 +232,7 @@ CHAMBER_RECORD = np.dtype(
     ]
     # Exponent of the curve fresh charges lie on, 0 in a chamber that does not renew its charge at
     # bottom dead centre; whether that is due.
-    + [(name, np.float64) for name in ("curve_exponent", "spent")]
+    + [(name, np.float64) for name in ("curve_exponent", "renewal_due")]
     # Intake temperature less the engine's rated one; equivalence ratio over the rated one.
     + [(name, np.float64) for name in ("beside_rated_temperature", "over_rated_fuel")]
 )
@@ -321,6 +323,17 @@ HISTORY_RECORD = np.dtype(
         )
     ]
 )
+
+#: Numbers of rows filled in the tables of a run.
+FILLED_RECORD = np.dtype([(name, np.int64) for name in ("strokes", "events", "history")])
+
+#: What a controller is shown and what it asks for.
+SIGNALS_RECORD = np.dtype([(name, np.float64) for name in Signals._fields])
+COMMANDS_RECORD = np.dtype([(name, np.float64) for name in Commands._fields])
+
+#: How the search for a fixed point went: maps taken, how far the last image is from its point, and
+#: how far a whole cycle misses its start.
+SEARCH_RECORD = np.dtype([(name, np.float64) for name in ("maps", "residual", "missed")])
 
 #: What the caller asks of the integrator.
 OPTIONS_RECORD = np.dtype(

@@ -14,7 +14,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.peaks import pressure_rate
-from saleg.kernel.rhs import alternator_action, gas_of, height_of
+from saleg.kernel.rhs import alternator_action, clearance_of, gas_of
 from saleg.kernel.slots import friction_force, springs_force
 from saleg.laws.arguments import Motion
 
@@ -37,7 +37,7 @@ def observe(P, E, C, y, dy, motored, row):
         p, T = pressure_and_temperature(C, side, y)
         row.p[side] = p
         row.T[side] = T
-        row.V[side] = C[side].area * height_of(C, side, y[X])
+        row.V[side] = C[side].area * clearance_of(C, side, y[X])
         row.p_rate[side] = p * pressure_rate(C, side, y, dy)
         row.p_motored[side] = motored_pressure(E, C, side, y, motored)
         row.heat_release[side] = dy[N_STATE + HEAT_RELEASED + side]

@@ -25,7 +25,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import height_of
+from saleg.kernel.rhs import clearance_of
 from saleg.kernel.run_plainly import run_at
 from saleg.kernel.switch import begin_stroke
 
@@ -66,7 +66,7 @@ Z_LN_MASS_MOVING = Z_CHAMBERS + 2 * VECTOR_PER_SIDE
 
 @compiled
 def write_vector(E, C, y, z):
-    """State at a dead centre as a vector of numbers of the order of one."""
+    """Write the state at a dead centre as a vector of numbers of the order of one."""
     z[Z_POSITION] = y[X] / E.length_scale
     z[Z_LN_SPEED] = log(max(E.mean_piston_speed, 1e-300))
     z[Z_WEIGHT] = E.load_weight
@@ -96,7 +96,7 @@ def write_vector(E, C, y, z):
 
 @compiled
 def read_vector(E, C, y, z):
-    """Put a vector back; modes, and all that a vector does not say, stay as they are."""
+    """Set the state from a vector; modes, and all else that is not in it, stay as they are."""
     y[X] = z[Z_POSITION] * E.length_scale
     y[V] = 0.0
     E.x_dead_centre = y[X]
@@ -124,9 +124,9 @@ def read_vector(E, C, y, z):
         y[IGNITION + side] = z[first + Z_INTEGRAL]
         y[MOTORED + side] = z[first + Z_LN_MOTORED]
         if c.curve_exponent > 0.0 > c.sign * E.direction:  # its charge was renewed just here
-            height = height_of(C, side, y[X])
-            c.p_closing = exp(y[THETA + side] - G0 * log(height / c.half_stroke))
-            c.V_closing = c.area * height
+            clearance = clearance_of(C, side, y[X])
+            c.p_closing = exp(y[THETA + side] - G0 * log(clearance / c.half_stroke))
+            c.V_closing = c.area * clearance
             c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
         if c.mode == BURNING:
             c.duration = exp(z[first + Z_LN_DURATION])
@@ -169,22 +169,30 @@ def distance(a, b):
     return worst
 
 
+@inline
+def strokes_per_map(mirrored):
+    """Strokes from one return to the next."""
+    return 1.0 if mirrored else 2.0
+
+
 @compiled
-def next_return(run, strokes_per_map, mirrored):
-    """Go on to the dead centre at which the map is taken; returns why the integrator came back."""
-    given, address, one = run
-    E1, C, y, O1, filled = given[1], given[2], given[3], given[7], given[11]
-    E, O = E1[0], O1[0]
-    wanted = E.strokes + strokes_per_map
+def next_return(mapping, mirrored):
+    """Go on for half a cycle, to be seen in the mirror, or a whole one.
+
+    Returns why the integrator came back.
+    """
+    run = mapping.integration
+    E, O, filled = run.engine[0], run.options[0], run.tables.filled[0]
+    wanted = E.strokes + strokes_per_map(mirrored)
     O.last_stroke = wanted
     O.t_end = E.t + O.longest
-    filled[0] = 0
-    filled[1] = 0
-    code = run_at(address, given)
+    filled.strokes = 0
+    filled.events = 0
+    code = run_at(mapping.address, run)
     if code == END_OF_TIME and E.strokes < wanted:
         return NO_DEAD_CENTRE
     if mirrored and code == END_OF_TIME:
-        mirror(E, C, y, one)
+        mirror(E, run.chambers, run.y, mapping.spare_chamber)
     return code
 
 
@@ -209,32 +217,44 @@ def solve(gram, size):
     return True
 
 
+@inline
+def inner_product(f, a, b, share):
+    """Inner product of ``f - a`` and ``f - share b``.
+
+    Summed side by side: the mirror image of an engine has the same to the last digit, so that no
+    search depends on the side.
+    """
+    middle, left, right = 0.0, 0.0, 0.0
+    for n in range(Z_CHAMBERS):
+        middle += (f[n] - a[n]) * (f[n] - share * b[n])
+    for n in range(Z_CHAMBERS, Z_CHAMBERS + VECTOR_PER_SIDE):
+        m = n + VECTOR_PER_SIDE
+        left += (f[n] - a[n]) * (f[n] - share * b[n])
+        right += (f[m] - a[m]) * (f[m] - share * b[m])
+    n = Z_LN_MASS_MOVING
+    return middle + (f[n] - a[n]) * (f[n] - share * b[n]) + (left + right)
+
+
 @compiled
 def mix(z, f, z_old, f_old, depth, gram):
     """Weights of the latest images whose residuals cancel best; false if they are undefined."""
     for i in range(depth):
         for j in range(i, depth):
-            product = 0.0
-            for n in range(N_VECTOR):
-                product += (f[n] - f_old[i, n]) * (f[n] - f_old[j, n])
-            gram[i, j] = product
-            gram[j, i] = product
+            gram[i, j] = inner_product(f, f_old[i], f_old[j], 1.0)
+            gram[j, i] = gram[i, j]
         gram[i, depth + 1] = gram[i, i]  # against which its pivot is judged
-        right = 0.0
-        for n in range(N_VECTOR):
-            right += (f[n] - f_old[i, n]) * f[n]
-        gram[i, depth] = right
+        gram[i, depth] = inner_product(f, f_old[i], f, 0.0)
     return solve(gram, depth)
 
 
 @compiled
-def extrapolate(z, f, z_old, f_old, known, target, gram):
+def extrapolate(iterates, known):
     """Anderson's step: the mixture of the latest images whose residuals cancel best.
 
-    `z` and `f` are the present point and residual, the rows of `z_old` and `f_old` those before,
-    the latest first. Writes the next point into `target`; returns whether it is near enough to
-    trust.
+    Writes the next point in place of the image; returns whether it is near enough to trust.
     """
+    z, f, z_old, f_old = iterates.point, iterates.residual, iterates.points, iterates.residuals
+    target, gram = iterates.image, iterates.gram
     depth = known
     while depth > 0 and not mix(z, f, z_old, f_old, depth, gram):
         depth -= 1
@@ -260,22 +280,22 @@ def push(z, f, z_old, f_old):
 
 
 @compiled
-def verified(run, vectors, found):
+def whole_cycle(mapping, iterates, found):
     """Take one whole cycle from the present state, all peaks located, as the record of the orbit.
 
     A state that repeats itself in the mirror must repeat itself without. The state at its begin
-    goes into the snapshot; `found[2]` is how far the cycle misses it.
+    goes into the snapshots; `found.missed` is how far the cycle misses it.
     """
-    z, image = vectors[0], vectors[2]
-    E1, C, y, snapshot, O = run[0][1], run[0][2], run[0][3], run[0][12], run[0][7][0]
-    write_vector(E1[0], C, y, z)
-    keep_snapshot(E1, C, y, snapshot)
-    begin_stroke(E1[0], C, y, run[0][4])
+    run = mapping.integration
+    E, O, C, y = run.engine[0], run.options[0], run.chambers, run.y
+    write_vector(E, C, y, iterates.point)
+    keep_snapshot(run.engine, C, y, run.snapshots)
+    begin_stroke(E, C, y, run.peaks)
     O.peaks = 2
-    code = next_return(run, 2.0, False)
+    code = next_return(mapping, False)
     O.peaks = 0
-    write_vector(E1[0], C, y, image)
-    found[2] = distance(image, z)
+    write_vector(E, C, y, iterates.image)
+    found.missed = distance(iterates.image, iterates.point)
     return code
 
 
@@ -296,38 +316,38 @@ def resize(E, rows, strokes):
 
 
 @compiled
-def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, found):
+def find_orbit(mapping, max_maps, tolerance, iterates, found):
     """Iterate and extrapolate the return map until a state returns to itself; take one cycle then.
 
-    On return the records of `run` hold the state at the last dead centre and the rows of the
-    cycle. `found` is (maps taken, residual of the map, residual of the cycle). Returns the code of
-    the integrator, or that nothing was found in `most` maps.
+    On return the records of `mapping` hold the state at the last dead centre and the rows of the
+    cycle; `iterates` the begin of the cycle, the residual of the map before it and the end of the
+    cycle. Returns the code of the integrator, or that nothing was found in `max_maps` maps.
     """
-    z, f, image, z_old, f_old, gram = vectors
-    E1, C, y = run[0][1], run[0][2], run[0][3]
-    E = E1[0]
+    z, f, image = iterates.point, iterates.residual, iterates.image
+    run = mapping.integration
+    E, C, y = run.engine[0], run.chambers, run.y
     write_vector(E, C, y, z)
-    same_modes(C, modes)
+    same_modes(C, iterates.modes)
     known = 0
-    for count in range(most):
-        code = next_return(run, strokes_per_map, mirrored)
+    for count in range(max_maps):
+        code = next_return(mapping, mapping.mirrored)
         if code != END_OF_TIME:
             return code
-        found[0] += 1.0
-        resize(E, run[0][8], int(strokes_per_map))
+        found.maps += 1.0
+        resize(E, run.tables.strokes, int(strokes_per_map(mapping.mirrored)))
         write_vector(E, C, y, image)
-        alike = same_modes(C, modes)
-        found[1] = distance(image, z)
-        if alike and found[1] <= tolerance:
-            return verified(run, vectors, found)
-        if not alike:
-            known = 0
+        alike = same_modes(C, iterates.modes)
+        found.residual = distance(image, z)
         for n in range(N_VECTOR):
             f[n] = image[n] - z[n]
+        if alike and found.residual <= tolerance:
+            return whole_cycle(mapping, iterates, found)
+        if not alike:
+            known = 0
         trusted = known > 0 and count >= WARM_UP
-        trusted = trusted and extrapolate(z, f, z_old, f_old, min(known, DEPTH), image, gram)
+        trusted = trusted and extrapolate(iterates, min(known, DEPTH))
         if alike:
-            push(z, f, z_old, f_old)
+            push(z, f, iterates.points, iterates.residuals)
             known += 1
         if trusted:
             for n in range(N_VECTOR):
@@ -339,29 +359,30 @@ def find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, 
 
 
 @compiled
-def cycle_from(run, vectors, found):
-    """One whole cycle from the first of the vectors, as :func:`verified` takes it."""
-    E1, C, y = run[0][1], run[0][2], run[0][3]
-    read_vector(E1[0], C, y, vectors[0])
-    return verified(run, vectors, found)
+def cycle_from(mapping, iterates, found):
+    """One whole cycle from a given vector."""
+    run = mapping.integration
+    read_vector(run.engine[0], run.chambers, run.y, iterates.point)
+    return whole_cycle(mapping, iterates, found)
 
 
 @compiled
-def image_of(run, strokes_per_map, mirrored, vectors):
-    """Image of the first vector, in the third; the modes are those of the records."""
-    E1, C, y = run[0][1], run[0][2], run[0][3]
-    read_vector(E1[0], C, y, vectors[0])
-    begin_stroke(E1[0], C, y, run[0][4])
-    code = next_return(run, strokes_per_map, mirrored)
-    write_vector(E1[0], C, y, vectors[2])
+def image_of(mapping, iterates):
+    """Image of a given vector; the modes are those of the records."""
+    run = mapping.integration
+    E, C, y = run.engine[0], run.chambers, run.y
+    read_vector(E, C, y, iterates.point)
+    begin_stroke(E, C, y, run.peaks)
+    code = next_return(mapping, mapping.mirrored)
+    write_vector(E, C, y, iterates.image)
     return code
 
 
 @cached
-def do_orbit(task, run, strokes_per_map, mirrored, most, tolerance, vectors, modes, found):
-    """Find a fixed point, take its image or a cycle from it: one entry, compiled once."""
+def do_orbit(task, mapping, max_maps, tolerance, iterates, found):
+    """Entry point: find a fixed point, or take the image of a vector or a cycle from it."""
     if task == FIND:
-        return find_orbit(run, strokes_per_map, mirrored, most, tolerance, vectors, modes, found)
+        return find_orbit(mapping, max_maps, tolerance, iterates, found[0])
     if task == CYCLE:
-        return cycle_from(run, vectors, found)
-    return image_of(run, strokes_per_map, mirrored, vectors)
+        return cycle_from(mapping, iterates, found[0])
+    return image_of(mapping, iterates)

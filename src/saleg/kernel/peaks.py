@@ -23,7 +23,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import height_of, rhs
+from saleg.kernel.rhs import clearance_of, rhs
 from saleg.kernel.step import take_step
 
 # Share of the greatest value so far below which both ends of a step promise no greater one within.
@@ -38,7 +38,7 @@ def pressure_rate(C, side, y, dy):
     c = C[side]
     if c.mode == OPEN:
         return 0.0
-    return dy[THETA + side] - G0 * c.sign * y[V] / height_of(C, side, y[X])
+    return dy[THETA + side] - G0 * c.sign * y[V] / clearance_of(C, side, y[X])
 
 
 @inline
@@ -66,7 +66,7 @@ def known_rate(C, peak, y, dy):
     rate = pressure_rate(C, side, y, dy)
     if peak < PEAK_TEMPERATURE:
         return rate
-    return rate + C[side].sign * y[V] / height_of(C, side, y[X])
+    return rate + C[side].sign * y[V] / clearance_of(C, side, y[X])
 
 
 @compiled
@@ -122,12 +122,12 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
     located and the others approached by a further step: that costs evaluations. Maxima at events
     are left to :func:`watch_point`.
     """
-    last = tableau[1].shape[0]
+    last = tableau.b.shape[0]
     if h <= 0.0:
         return
     for peak in range(N_PEAKS):
         if is_costly(peak):
-            if O.peaks > 1 and may_peak(C, peak, h, y, k[0], y_new, k[last], peaks, spare[4]):
+            if O.peaks > 1 and may_peak(C, peak, h, y, k[0], y_new, k[last], peaks, spare.trail):
                 approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
         elif is_passed(C, peak, y, k[0], y_new, k[last]):
             if O.peaks > 1:
@@ -139,7 +139,7 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
                     r0, r1 = r0 * q0, r1 * q1
                 top = cubic(q0, r0, q1, r1, h, top_of_cubic(q0, r0, q1, r1, h))
                 peaks[peak] = max(peaks[peak], q0, q1, top)
-    spare[4][N_PEAKS] = h
+    spare.trail[N_PEAKS] = h
 
 
 @inline
@@ -176,8 +176,8 @@ def value_and_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
 def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
     """Locate a peak within a step by a shorter step of the same method, and a cubic from there."""
     t, motored = E.t, O.motored
-    last = tableau[1].shape[0]
-    spare_y, spare_dy, spare_k, inner, _ = spare
+    last = tableau.b.shape[0]
+    spare_y, spare_dy, spare_k, inner = spare.y, spare.dy, spare.rates, spare.y_new
     q0, r0 = value_and_rate(P, E, C, peak, t, y, k[0], spare_y, spare_dy, motored)
     if r0 <= 0.0:
         return

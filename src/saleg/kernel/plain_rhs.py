@@ -7,6 +7,7 @@ and `C` what each of its chambers keeps between two events (`EngineState` and `C
 
 from math import nan, pi
 
+from saleg.kernel.copies import motored_gas, with_pressure_rate
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
     ALTERNATOR_IMPULSE,
@@ -51,84 +52,47 @@ QUADRATURES = 9
 
 @inline
 def gas_in(E, C, side, y):
-    """What the laws are shown of the gas in a chamber."""
+    """Gas in a closed chamber, as the laws see it."""
     c = C[side]
-    height = c.half_stroke + c.sign * y[POSITION]
-    volume = c.area * height
+    clearance = c.half_stroke + c.sign * y[POSITION]
+    volume = c.area * clearance
     p = y[PRESSURE + side]
     return Gas(
-        p,
-        p * volume / (c.mass * c.gas_constant),
-        volume,
-        y[MOTORED_PRESSURE + side] if E.motored == 1.0 else p,
-        height,
-        c.bore,
-        E.mean_piston_speed,
-        c.wall_temperature,
-        1.0 if c.mode == BURNING else 0.0,
-        c.sign * y[VELOCITY],
-        0.0,
+        p=p,
+        T=p * volume / (c.mass * c.gas_constant),
+        V=volume,
+        p_motored=y[MOTORED_PRESSURE + side] if E.motored == 1.0 else p,
+        clearance=clearance,
+        bore=c.bore,
+        mean_piston_speed=E.mean_piston_speed,
+        wall_temperature=c.wall_temperature,
+        burning=1.0 if c.mode == BURNING else 0.0,
+        clearance_rate=c.sign * y[VELOCITY],
+        p_rate=0.0,
     )
 
 
 @inline
 def charge_in(E, C, side):
-    """What the laws are shown of the charge."""
+    """Charge since port closing, as the laws see it."""
     c = C[side]
     return Charge(
-        c.mass,
-        c.fuel,
-        c.air,
-        c.burnt,
-        c.equivalence_ratio,
-        c.p_closing,
-        c.T_closing,
-        c.V_closing,
-        c.area * E.stroke,
-    )
-
-
-@inline
-def without_combustion(gas):
-    """The same charge at its motored pressure."""
-    T = gas.T * gas.p_motored / gas.p
-    return Gas(
-        gas.p_motored,
-        T,
-        gas.V,
-        gas.p_motored,
-        gas.height,
-        gas.bore,
-        gas.mean_piston_speed,
-        gas.wall_temperature,
-        0.0,
-        gas.height_rate,
-        0.0,
-    )
-
-
-@inline
-def with_rate_of_pressure(gas, p_rate):
-    """The same gas with the rate of its pressure, as ignition laws are shown it."""
-    return Gas(
-        gas.p,
-        gas.T,
-        gas.V,
-        gas.p_motored,
-        gas.height,
-        gas.bore,
-        gas.mean_piston_speed,
-        gas.wall_temperature,
-        gas.burning,
-        gas.height_rate,
-        p_rate,
+        mass=c.mass,
+        fuel=c.fuel,
+        air=c.air,
+        burnt=c.burnt,
+        equivalence_ratio=c.equivalence_ratio,
+        p=c.p_closing,
+        T=c.T_closing,
+        V=c.V_closing,
+        swept_volume=c.area * E.stroke,
     )
 
 
 @inline
 def heat_to_wall(P, side, gas, charge):
     """Heat flow to the wall [W]: Eq. 50."""
-    surface = pi * gas.bore**2 / 2.0 + pi * gas.bore * gas.height
+    surface = pi * gas.bore**2 / 2.0 + pi * gas.bore * gas.clearance
     h = heat_transfer_coefficient(P, side, gas, charge)
     return h * surface * (gas.T - gas.wall_temperature)
 
@@ -160,10 +124,10 @@ def closed_chamber(P, E, C, side, t, y, dy):
     dy[QUADRATURES + HEAT_LOST + side] = lost
     dy[QUADRATURES + HEAT_RELEASED + side] = released
     if C[side].armed > DISARMED and C[side].mode == CLOSED:
-        rising = with_rate_of_pressure(gas, dy[PRESSURE + side])
+        rising = with_pressure_rate(gas, dy[PRESSURE + side])
         dy[INTEGRAL + side] = ignition_rate(P, side, rising, charge)
     if E.motored == 1.0:
-        cold = without_combustion(gas)
+        cold = motored_gas(gas, gas.T * gas.p_motored / gas.p)
         lost = heat_to_wall(P, side, cold, charge)
         dy[MOTORED_PRESSURE + side] = pressure_rate(P, side, cold, volume_rate, -lost)
 

@@ -6,7 +6,7 @@ chambers' records (see :mod:`saleg.kernel.layout`), `side` 0 for left and 1 for 
 
 from math import exp, log, pi, sin
 
-from saleg.kernel.aid import Aid
+from saleg.kernel.copies import motored_gas, with_pressure_rate
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     ALTERNATOR_IMPULSE,
@@ -32,14 +32,15 @@ from saleg.kernel.layout import (
     V,
     X,
 )
+from saleg.kernel.logarithms import Logarithms
 from saleg.kernel.slots import (
     actuators_motor_power,
     alternator_current_rate,
     alternator_electrical_power,
     alternator_force,
     friction_force,
+    gas_properties_breakpoint,
     gas_properties_gamma,
-    gas_properties_kink,
     heat_release_burn_rate,
     heat_transfer_coefficient,
     heat_transfer_coefficient_constants,
@@ -51,96 +52,87 @@ from saleg.laws.arguments import Charge, Gas, Motion
 
 
 @inline
-def height_of(C, side, x):
+def clearance_of(C, side, x):
     """Clearance between crown and head [m]."""
     return C[side].half_stroke + C[side].sign * x
 
 
 @inline
-def ln_height_of(C, side, x):
+def ln_clearance_of(C, side, x):
     """Natural logarithm of the clearance over that at the midpoint."""
-    return log(height_of(C, side, x) / C[side].half_stroke)
+    return log(clearance_of(C, side, x) / C[side].half_stroke)
 
 
 @inline
 def ln_temperature(C, side, y):
     """Natural logarithm of the temperature in a closed chamber [K]."""
     c = C[side]
-    ln_height = ln_height_of(C, side, y[X])
-    return y[THETA + side] + (1.0 - G0) * ln_height + c.ln_volume - c.ln_mass_gas
+    ln_clearance = ln_clearance_of(C, side, y[X])
+    return y[THETA + side] + (1.0 - G0) * ln_clearance + c.ln_volume - c.ln_mass_gas
 
 
 @inline
 def gas_at(E, C, side, x, v, ln_p, ln_p_motored):
-    """What the laws are shown of the gas in a closed chamber."""
+    """Gas in a closed chamber, as the laws see it."""
     c = C[side]
     p = exp(ln_p)
-    height = height_of(C, side, x)
-    volume = c.area * height
+    clearance = clearance_of(C, side, x)
+    volume = c.area * clearance
     return Gas(
-        p,
-        p * volume * c.per_mass_gas,
-        volume,
-        p if ln_p_motored == ln_p else exp(ln_p_motored),
-        height,
-        c.bore,
-        E.mean_piston_speed,
-        c.wall_temperature,
-        1.0 if c.mode == BURNING else 0.0,
-        c.sign * v,
-        0.0,
+        p=p,
+        T=p * volume * c.per_mass_gas,
+        V=volume,
+        p_motored=p if ln_p_motored == ln_p else exp(ln_p_motored),
+        clearance=clearance,
+        bore=c.bore,
+        mean_piston_speed=E.mean_piston_speed,
+        wall_temperature=c.wall_temperature,
+        burning=1.0 if c.mode == BURNING else 0.0,
+        clearance_rate=c.sign * v,
+        p_rate=0.0,
     )
 
 
 @inline
 def gas_of(E, C, side, y, motored):
-    """The same from a state vector."""
-    shift = G0 * ln_height_of(C, side, y[X])
+    """Gas in a closed chamber from a state vector."""
+    shift = G0 * ln_clearance_of(C, side, y[X])
     ln_p = y[THETA + side] - shift
     ln_p_motored = y[MOTORED + side] - shift if motored else ln_p
     return gas_at(E, C, side, y[X], y[V], ln_p, ln_p_motored)
 
 
 @inline
-def heat_aid(C, side, ln_height, ln_p):
-    """What helps to evaluate the heat-transfer law."""
+def logarithms_of(C, side, ln_clearance, ln_p, constants):
+    """Logarithms of the state of the gas, with the constants of a law."""
     c = C[side]
-    ln_V = ln_height + c.ln_volume
+    ln_V = ln_clearance + c.ln_volume
     ln_T = ln_p + ln_V - c.ln_mass_gas
-    return Aid(ln_p, ln_T, ln_V, c.heat_first, c.heat_second, c.heat_third)
-
-
-@inline
-def ignition_aid(C, side, ln_height, ln_p):
-    """What helps to evaluate the ignition law."""
-    c = C[side]
-    ln_V = ln_height + c.ln_volume
-    ln_T = ln_p + ln_V - c.ln_mass_gas
-    return Aid(ln_p, ln_T, ln_V, c.ignition_first, c.ignition_second, c.ignition_third)
+    return Logarithms(ln_p, ln_T, ln_V, constants[0], constants[1], constants[2])
 
 
 @inline
 def charge_of(E, C, side):
-    """What the laws are shown of the charge since port closing."""
+    """Charge since port closing, as the laws see it."""
     c = C[side]
     return Charge(
-        c.mass,
-        c.fuel,
-        c.air,
-        c.burnt,
-        c.equivalence_ratio,
-        c.p_closing,
-        c.T_closing,
-        c.V_closing,
-        c.area * E.stroke,
+        mass=c.mass,
+        fuel=c.fuel,
+        air=c.air,
+        burnt=c.burnt,
+        equivalence_ratio=c.equivalence_ratio,
+        p=c.p_closing,
+        T=c.T_closing,
+        V=c.V_closing,
+        swept_volume=c.area * E.stroke,
     )
 
 
 @inline
-def heat_loss(P, C, side, gas, charge, aid):
+def heat_loss(P, C, side, gas, charge, logarithms):
     """Heat flow to the wall [W], Eq. 50."""
-    surface = 2.0 * C[side].area + pi * gas.bore * gas.height
-    coefficient = heat_transfer_coefficient(P, side, gas, charge, aid)
+    surface = 2.0 * C[side].area + pi * gas.bore * gas.clearance
+    coefficient = heat_transfer_coefficient(P, side, gas, charge, logarithms)
     return coefficient * surface * (gas.T - gas.wall_temperature)
 
 
@@ -156,83 +148,53 @@ def heat_release(P, C, side, t):
 
 
 @inline
-def theta_rate(P, side, gas, growth, heat):
+def theta_rate(P, side, gas, clearance_rate, heat):
     """Rate of theta [1/s]: Eq. 48, signs corrected, with Eq. 49."""
     g = gas_properties_gamma(P, side, gas.T)
-    return (G0 - g) * growth / gas.height + (g - 1.0) * heat / (gas.p * gas.V)
+    return (G0 - g) * clearance_rate / gas.clearance + (g - 1.0) * heat / (gas.p * gas.V)
 
 
 @inline
 def chamber_rates(P, E, C, side, t, y, dy, motored):
     """Rates of one chamber into `dy`; returns its pressure [Pa]."""
     c = C[side]
-    growth = c.sign * y[V]
+    clearance_rate = c.sign * y[V]
     dy[THETA + side] = 0.0
     dy[IGNITION + side] = 0.0
     dy[MOTORED + side] = 0.0
     dy[N_STATE + HEAT_RELEASED + side] = 0.0
     dy[N_STATE + HEAT_LOST + side] = 0.0
     if c.mode == OPEN:
-        dy[N_STATE + GAS_WORK + side] = c.intake_pressure * c.area * growth
-        dy[N_STATE + PORT_WORK + side] = c.intake_pressure * c.area * growth
+        dy[N_STATE + GAS_WORK + side] = c.intake_pressure * c.area * clearance_rate
+        dy[N_STATE + PORT_WORK + side] = c.intake_pressure * c.area * clearance_rate
         return c.intake_pressure
-    ln_height = ln_height_of(C, side, y[X])
-    ln_p = y[THETA + side] - G0 * ln_height
-    ln_p_motored = y[MOTORED + side] - G0 * ln_height if motored else ln_p
+    ln_clearance = ln_clearance_of(C, side, y[X])
+    ln_p = y[THETA + side] - G0 * ln_clearance
+    ln_p_motored = y[MOTORED + side] - G0 * ln_clearance if motored else ln_p
     gas = gas_at(E, C, side, y[X], y[V], ln_p, ln_p_motored)
     charge = charge_of(E, C, side)
     released = heat_release(P, C, side, t)
-    lost = heat_loss(P, C, side, gas, charge, heat_aid(C, side, ln_height, ln_p))
-    dy[THETA + side] = theta_rate(P, side, gas, growth, released - lost)
+    heat_constants = (c.heat_first, c.heat_second, c.heat_third)
+    lost = heat_loss(
+        P, C, side, gas, charge, logarithms_of(C, side, ln_clearance, ln_p, heat_constants)
+    )
+    dy[THETA + side] = theta_rate(P, side, gas, clearance_rate, released - lost)
     dy[N_STATE + HEAT_RELEASED + side] = released
     dy[N_STATE + HEAT_LOST + side] = lost
-    dy[N_STATE + GAS_WORK + side] = gas.p * c.area * growth
+    dy[N_STATE + GAS_WORK + side] = gas.p * c.area * clearance_rate
     dy[N_STATE + PORT_WORK + side] = 0.0
     if c.armed > DISARMED and c.mode == CLOSED:
-        rising = with_pressure_rate(gas, dy[THETA + side] - G0 * growth / gas.height)
-        aid = ignition_aid(C, side, ln_height, ln_p)
-        dy[IGNITION + side] = ignition_rate(P, side, rising, charge, aid)
+        relative_rate = dy[THETA + side] - G0 * clearance_rate / gas.clearance
+        rising = with_pressure_rate(gas, gas.p * relative_rate)
+        constants = (c.ignition_first, c.ignition_second, c.ignition_third)
+        logarithms = logarithms_of(C, side, ln_clearance, ln_p, constants)
+        dy[IGNITION + side] = ignition_rate(P, side, rising, charge, logarithms)
     if motored:
-        cold = motored_gas(C, side, gas)
-        lost = heat_loss(P, C, side, cold, charge, heat_aid(C, side, ln_height, ln_p_motored))
-        dy[MOTORED + side] = theta_rate(P, side, cold, growth, -lost)
+        cold = motored_gas(gas, gas.p_motored * gas.V * c.per_mass_gas)
+        logarithms = logarithms_of(C, side, ln_clearance, ln_p_motored, heat_constants)
+        lost = heat_loss(P, C, side, cold, charge, logarithms)
+        dy[MOTORED + side] = theta_rate(P, side, cold, clearance_rate, -lost)
     return gas.p
-
-
-@inline
-def with_pressure_rate(gas, relative_rate):
-    """The same gas with the rate of its pressure, given relative to the pressure [1/s]."""
-    return Gas(
-        gas.p,
-        gas.T,
-        gas.V,
-        gas.p_motored,
-        gas.height,
-        gas.bore,
-        gas.mean_piston_speed,
-        gas.wall_temperature,
-        gas.burning,
-        gas.height_rate,
-        gas.p * relative_rate,
-    )
-
-
-@inline
-def motored_gas(C, side, gas):
-    """The same charge at its motored pressure."""
-    return Gas(
-        gas.p_motored,
-        gas.p_motored * gas.V * C[side].per_mass_gas,
-        gas.V,
-        gas.p_motored,
-        gas.height,
-        gas.bore,
-        gas.mean_piston_speed,
-        gas.wall_temperature,
-        0.0,
-        gas.height_rate,
-        0.0,
-    )
 
 
 @inline
@@ -281,7 +243,7 @@ def rhs(P, E, C, t, y, dy, motored):
 
 @compiled
 def refresh(P, E, C, y):
-    """Compute what stays the same until the next event."""
+    """Compute the numbers that stay the same until the next event."""
     for side in range(2):
         c = C[side]
         if c.mode == OPEN:
@@ -289,9 +251,9 @@ def refresh(P, E, C, y):
         c.ln_volume = log(c.area * c.half_stroke)
         c.ln_mass_gas = log(c.mass * c.gas_constant)
         c.per_mass_gas = 1.0 / (c.mass * c.gas_constant)
-        kink = gas_properties_kink(P, side)
-        c.ln_kink = log(kink) if kink > 0.0 else 0.0
-        c.beyond_kink = 1.0 if ln_temperature(C, side, y) > c.ln_kink else -1.0
+        breakpoint = gas_properties_breakpoint(P, side)
+        c.ln_breakpoint = log(breakpoint) if breakpoint > 0.0 else 0.0
+        c.beyond_breakpoint = 1.0 if ln_temperature(C, side, y) > c.ln_breakpoint else -1.0
         gas = gas_at(E, C, side, 0.0, 0.0, 0.0, 0.0)  # of which only what stays the same is used
         charge = charge_of(E, C, side)
         heat = heat_transfer_coefficient_constants(P, side, gas, charge)

@@ -1,10 +1,11 @@
-"""The integrator called as Python; in a composed module it is called by its address."""
-
-from typing import Any
+"""The integrator called by name; a composed module calls it by its address where numba can."""
 
 from saleg.kernel.integrate import run_on
+from saleg.kernel.jit import inline
+from saleg.kernel.tuples import Integration
 
 
-def run_at(address: int, arguments: tuple[Any, ...]) -> int:
-    """Call the integrator: in plain Python there is but one, so the address says nothing."""
-    return int(run_on(*arguments))
+@inline
+def run_at(address: int, run: Integration) -> int:
+    """Call the integrator: by name there is but one, so the address says nothing."""
+    return int(run_on(run))

@@ -7,7 +7,7 @@ numbers; the names and arguments are the same.
 from ctypes import CFUNCTYPE, c_void_p
 from typing import Any
 
-from saleg.kernel.aid import Aid
+from saleg.kernel.logarithms import Logarithms
 from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
 
 
@@ -25,13 +25,13 @@ def gas_properties_internal_energy(P: Any, side: int, T: float) -> float:
     return _chamber(P, side).gas_properties.internal_energy(T)
 
 
-def gas_properties_kink(P: Any, side: int) -> float:
+def gas_properties_breakpoint(P: Any, side: int) -> float:
     """Temperature at which gamma is not smooth."""
-    return _chamber(P, side).gas_properties.kink()
+    return _chamber(P, side).gas_properties.breakpoint()
 
 
 def heat_transfer_coefficient(
-    P: Any, side: int, gas: Gas, charge: Charge, aid: Aid | None = None
+    P: Any, side: int, gas: Gas, charge: Charge, logarithms: Logarithms | None = None
 ) -> float:
     """Heat-transfer coefficient."""
     return _chamber(P, side).heat_transfer.coefficient(gas, charge)
@@ -40,7 +40,7 @@ def heat_transfer_coefficient(
 def heat_transfer_coefficient_constants(
     P: Any, side: int, gas: Gas, charge: Charge
 ) -> tuple[float, float, float]:
-    """Constants an eased law keeps; the plain one needs none."""
+    """Constants of the reduced form of the law; the plain law needs none."""
     return 0.0, 0.0, 0.0
 
 
@@ -59,7 +59,9 @@ def heat_release_burnt_fraction(P: Any, side: int, u: float) -> float:
     return _chamber(P, side).heat_release.burnt_fraction(u)
 
 
-def ignition_rate(P: Any, side: int, gas: Gas, charge: Charge, aid: Aid | None = None) -> float:
+def ignition_rate(
+    P: Any, side: int, gas: Gas, charge: Charge, logarithms: Logarithms | None = None
+) -> float:
     """Rate of the ignition integral."""
     return _chamber(P, side).ignition.rate(gas, charge)
 
@@ -67,7 +69,7 @@ def ignition_rate(P: Any, side: int, gas: Gas, charge: Charge, aid: Aid | None =
 def ignition_rate_constants(
     P: Any, side: int, gas: Gas, charge: Charge
 ) -> tuple[float, float, float]:
-    """Constants an eased law keeps; the plain one needs none."""
+    """Constants of the reduced form of the law; the plain law needs none."""
     return 0.0, 0.0, 0.0
 
 
@@ -106,64 +108,65 @@ def springs_energy(P: Any, motion: Motion) -> float:
     return P.springs.energy(motion)
 
 
-def friction_at_dead_centre(P: Any, held: float, stroke: Stroke) -> float:
-    """Number held by the friction law."""
-    return P.friction.at_dead_centre(held, stroke)
+def friction_at_dead_centre(P: Any, memory: float, stroke: Stroke) -> float:
+    """Number the friction law remembers."""
+    return P.friction.at_dead_centre(memory, stroke)
 
 
-def friction_force(P: Any, held: float, motion: Motion) -> float:
+def friction_force(P: Any, memory: float, motion: Motion) -> float:
     """Friction force."""
-    return P.friction.force(held, motion)
+    return P.friction.force(memory, motion)
 
 
-def alternator_at_dead_centre(P: Any, held: float, stroke: Stroke) -> float:
+def alternator_at_dead_centre(P: Any, load_weight: float, stroke: Stroke) -> float:
     """Load weight."""
-    return P.alternator.at_dead_centre(held, stroke)
+    return P.alternator.at_dead_centre(load_weight, stroke)
 
 
-def alternator_force(P: Any, held: float, motion: Motion) -> float:
+def alternator_force(P: Any, load_weight: float, motion: Motion) -> float:
     """Alternator force."""
-    return P.alternator.force(held, motion)
+    return P.alternator.force(load_weight, motion)
 
 
-def alternator_current_rate(P: Any, held: float, motion: Motion) -> float:
+def alternator_current_rate(P: Any, load_weight: float, motion: Motion) -> float:
     """Rate of the alternator's current."""
-    return P.alternator.current_rate(held, motion)
+    return P.alternator.current_rate(load_weight, motion)
 
 
-def alternator_electrical_power(P: Any, held: float, motion: Motion) -> float:
+def alternator_electrical_power(P: Any, load_weight: float, motion: Motion) -> float:
     """Electrical power."""
-    return P.alternator.electrical_power(held, motion)
+    return P.alternator.electrical_power(load_weight, motion)
 
 
-def call_at(address: int, numbers: int, held: int, signals: int, commands: int) -> None:
-    """Call a controller by its address."""
-    CFUNCTYPE(None, *[c_void_p] * 4)(address)(numbers, held, signals, commands)
+def call_at(address: Any, numbers: int, memory: int, signals: int, commands: int) -> None:
+    """Call a controller by its address; one of Python stands there itself."""
+    entry = address if callable(address) else CFUNCTYPE(None, *[c_void_p] * 4)(address)
+    entry(numbers, memory, signals, commands)
 
 
-def state_logic_motors(P: Any, held: Any, signals: Signals) -> float:
+def state_logic_is_motor(P: Any, memory: Any, signals: Signals) -> float:
     """Whether the alternator is a motor."""
-    return P.state_logic.motors(held, signals)
+    return P.state_logic.is_motor(memory, signals)
 
 
-def motor_control_drive(P: Any, held: Any, signals: Signals) -> Drive:
+def motor_control_drive(P: Any, memory: Any, signals: Signals) -> Drive:
     """Force of the motor."""
-    return P.motor_control.drive(held, signals)
+    return P.motor_control.drive(memory, signals)
 
 
-def load_control_weight(P: Any, held: Any, signals: Signals) -> float:
+def load_control_weight(P: Any, memory: Any, signals: Signals) -> float:
     """Load weight."""
-    return P.load_control.weight(held, signals)
+    return P.load_control.weight(memory, signals)
 
 
-def fuel_control_equivalence_ratio(P: Any, held: Any, signals: Signals) -> float:
+def fuel_control_equivalence_ratio(P: Any, memory: Any, signals: Signals) -> float:
     """Equivalence ratio of the coming charge."""
-    return P.fuel_control.equivalence_ratio(held, signals)
+    return P.fuel_control.equivalence_ratio(memory, signals)
 
 
-def intake_control_temperature(P: Any, held: Any, signals: Signals) -> float:
+def intake_control_temperature(P: Any, memory: Any, signals: Signals) -> float:
     """Intake temperature."""
-    return P.intake_control.temperature(held, signals)
+    return P.intake_control.temperature(memory, signals)
 
 
 def actuators_refused(P: Any, wanted: Commands) -> float:

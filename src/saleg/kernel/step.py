@@ -11,11 +11,11 @@ from saleg.kernel.rhs import rhs
 def take_step(P, E, C, tableau, t, h, y, k, y_new, motored):
     """Advance `y` by `h` into `y_new`.
 
-    `tableau` is (A, b, c, e). On entry ``k[0]`` holds the rates at `t`; on return ``k[s]``, s the
+    On entry ``k[0]`` holds the rates at `t`; on return ``k[s]``, s the
     number of stages, holds those at `t + h`. Quadratures need no stage values, so they are summed
     only once, at the end.
     """
-    A, b, c, _ = tableau
+    A, b, c = tableau.A, tableau.b, tableau.c
     stages = b.shape[0]
     for i in range(1, stages):
         for n in range(N_STATE):
@@ -44,7 +44,7 @@ def error_norm(E, tableau, h, y, y_new, k, tolerance):
     Position is measured by the stroke, velocity by the natural speed, theta (hence pressure)
     relatively, the ignition integral against the larger of itself and 1.
     """
-    e = tableau[3]
+    e = tableau.e
     worst = 0.0
     for n in range(N_STATE):
         error = 0.0

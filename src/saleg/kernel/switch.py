@@ -1,4 +1,4 @@
-"""What happens at an event: modes change, charges are composed, regulators act."""
+"""Changes at an event: modes switch, charges are composed, regulators act."""
 
 from math import isfinite, log
 
@@ -54,7 +54,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import charge_of, gas_of, height_of, refresh
+from saleg.kernel.rhs import charge_of, clearance_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
     friction_at_dead_centre,
@@ -73,13 +73,25 @@ from saleg.laws.arguments import Motion, Stroke
 FIRST_OF_BURN = 0.1
 
 
+@inline
+def has_room(O, tables):
+    """Whether one more step can be recorded."""
+    filled = tables.filled[0]
+    return (
+        tables.strokes.shape[0] - filled.strokes >= 1
+        and (O.events == 0 or tables.events.shape[0] - filled.events >= 12)
+        and (O.history == 0 or tables.history.shape[0] - filled.history >= 2 + O.dense)
+    )
+
+
 @compiled
-def record_event(E, C, O, y, kind, side, events, filled):
+def record_event(E, C, O, y, kind, side, tables):
     """Append a row to the event table."""
     if not O.events:
         return
-    row = events[filled[1]]
-    filled[1] += 1
+    filled = tables.filled[0]
+    row = tables.events[filled.events]
+    filled.events += 1
     row.t = E.t
     row.kind = kind
     row.side = side
@@ -122,7 +134,7 @@ def ignite(P, E, C, side, y, motored):
         E.next_step = min(E.next_step, FIRST_OF_BURN * c.duration)
     c.fuel_to_burn = c.combustion_efficiency * min(c.fuel, c.air / c.air_fuel_ratio)
     c.ignition_time = E.t
-    c.ignition_height = gas.height
+    c.ignition_height = gas.clearance
     if c.duration <= 0.0:
         burn_at_once(P, C, side, y, gas.T)
         end_combustion(P, E, C, side)
@@ -147,7 +159,7 @@ def burn_at_once(P, C, side, y, T):
 
 @compiled
 def end_combustion(P, E, C, side):
-    """Turn what has burnt from fuel and air into burnt gas."""
+    """Turn the fuel burnt, and its air, into burnt gas."""
     c = C[side]
     fuel = burnt_mass(P, C, side, E.t)
     c.fuel -= fuel
@@ -186,20 +198,20 @@ def renew_charge(P, E, C, side, y):
         end_combustion(P, E, C, side)
     before = internal_energy(P, C, side, y)
     c = C[side]
-    squeeze = c.half_stroke / height_of(C, side, y[X])
-    p = c.intake_pressure * squeeze**c.curve_exponent
-    T = c.intake_temperature * squeeze ** (c.curve_exponent - 1.0)
+    volume_ratio = c.half_stroke / clearance_of(C, side, y[X])
+    p = c.intake_pressure * volume_ratio**c.curve_exponent
+    T = c.intake_temperature * volume_ratio ** (c.curve_exponent - 1.0)
     compose_charge(P, C, side, y, p, T)
-    c.spent = 0.0
+    c.renewal_due = 0.0
     c.exhaust_energy += before - internal_energy(P, C, side, y)
 
 
 @compiled
 def compose_charge(P, C, side, y, p, T):
-    """Fill a chamber with a charge at a pressure and a temperature, from what stood in it."""
+    """Compose a fresh charge at a pressure and a temperature from the contents of the chamber."""
     c = C[side]
-    height = height_of(C, side, y[X])
-    volume = c.area * height
+    clearance = clearance_of(C, side, y[X])
+    volume = c.area * clearance
     mass = p * volume / (c.gas_constant * T)
     fuel, air, burnt, fresh = gas_exchange_charge(
         P, side, mass, c.fuel, c.air, c.burnt, c.equivalence_ratio_wanted, c.air_fuel_ratio
@@ -215,7 +227,7 @@ def compose_charge(P, C, side, y, p, T):
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
     y[IGNITION + side] = 0.0
-    y[THETA + side] = log(p) + G0 * log(height / c.half_stroke)
+    y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
 
 
@@ -262,7 +274,7 @@ def write_stroke(P, E, C, y, peaks, row):
 
 @compiled
 def begin_stroke(E, C, y, peaks):
-    """Clear what is counted per stroke."""
+    """Reset the quantities that are counted per stroke."""
     for n in range(N_STATE, N_ALL):
         y[n] = 0.0
     for peak in range(N_PEAKS):
@@ -285,13 +297,13 @@ def regulate(P, E, C, y):
     length = abs(y[X] - E.x_dead_centre)
     duration = E.t - E.t_dead_centre
     stroke = Stroke(
-        length,
-        duration,
-        E.maximum_stroke,
-        0.5 * E.maximum_stroke,
-        0.5 * (C[LEFT].area + C[RIGHT].area),
-        fuel + E.last_fuel_energy,
-        squared + E.last_speed_squared,
+        length=length,
+        duration=duration,
+        maximum=E.maximum_stroke,
+        half_maximum=0.5 * E.maximum_stroke,
+        piston_area=0.5 * (C[LEFT].area + C[RIGHT].area),
+        fuel_energy=fuel + E.last_fuel_energy,
+        speed_squared=squared + E.last_speed_squared,
     )
     E.last_fuel_energy = fuel
     E.last_speed_squared = squared
@@ -317,7 +329,7 @@ def misfires(E, C, side):
 def ports_due(E, C, side, y):
     """Whether a chamber stands at its ports, about to pass them."""
     c = C[side]
-    beyond = height_of(C, side, y[X]) - c.port
+    beyond = clearance_of(C, side, y[X]) - c.port
     slack = 1e-14 * E.length_scale
     outward = c.sign * E.direction
     if c.mode == OPEN:
@@ -331,7 +343,7 @@ def change_due(P, E, C, side, y):
     c = C[side]
     if c.mode == BURNING and E.t >= c.t_end:
         return EVENT_END_OF_COMBUSTION
-    if c.spent > 0.0:
+    if c.renewal_due > 0.0:
         return EVENT_CHARGE_RENEWAL
     if misfires(E, C, side):
         lit = c.armed == ARMED
@@ -366,11 +378,12 @@ def change_mode(P, E, C, O, side, y, kind):
 
 
 @compiled
-def turn(P, E, C, y, peaks, strokes, filled, control):
-    """Dead centre: close the books of the stroke, let the regulators act, turn around."""
+def turn(P, E, C, y, peaks, tables, control):
+    """Dead centre: write the row of the stroke, let the regulators act, reverse the direction."""
     if isfinite(E.x_dead_centre) and E.t > E.t_dead_centre:
-        write_stroke(P, E, C, y, peaks, strokes[filled[0]])
-        filled[0] += 1
+        filled = tables.filled[0]
+        write_stroke(P, E, C, y, peaks, tables.strokes[filled.strokes])
+        filled.strokes += 1
         regulate(P, E, C, y)
         E.strokes += 1.0
         E.steps_at_dead_centre = E.steps
@@ -381,13 +394,13 @@ def turn(P, E, C, y, peaks, strokes, filled, control):
     begin_stroke(E, C, y, peaks)
     for side in range(2):
         c = C[side]
-        c.spent = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
+        c.renewal_due = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
     if E.controlled == COMPILED:
         obey(P, E, C, ask(E, control), E.t - E.t_command)
 
 
 @compiled
-def switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control):
+def switch(P, E, C, O, y, landed, peaks, tables, control):
     """Do all that is due at the present instant; returns whether anything was.
 
     Chambers change first, one after the other, then the translator turns, which may make further
@@ -401,24 +414,24 @@ def switch(P, E, C, O, y, landed, peaks, strokes, events, filled, control):
         for side in range(2):
             kind = change_due(P, E, C, side, y)
             if kind >= 0:
-                record_event(E, C, O, y, kind, side, events, filled)
+                record_event(E, C, O, y, kind, side, tables)
                 change_mode(P, E, C, O, side, y, kind)
                 quiet = False
                 changed = True
         if quiet and not turns:
             break
         if quiet:
-            turn(P, E, C, y, peaks, strokes, filled, control)
+            turn(P, E, C, y, peaks, tables, control)
             side = LEFT if E.direction > 0.0 else RIGHT
-            record_event(E, C, O, y, kind_of_turn(landed), side, events, filled)
+            record_event(E, C, O, y, kind_of_turn(landed), side, tables)
             turns = False
             changed = True
     if E.motoring != was_motoring:
         kind = EVENT_MOTOR_ON if E.motoring > 0.0 else EVENT_MOTOR_OFF
         side = LEFT if E.direction > 0.0 else RIGHT
-        record_event(E, C, O, y, kind, side, events, filled)
+        record_event(E, C, O, y, kind, side, tables)
     if landed >= HEAD:
-        record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, events, filled)
+        record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, tables)
     if changed:
         refresh(P, E, C, y)
     return changed

@@ -11,29 +11,9 @@ and appendix.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
-from numpy.typing import NDArray
 
-
-class Tableau(NamedTuple):
-    """Coefficients of an explicit Runge-Kutta method with s stages.
-
-    Attributes
-    ----------
-    A : ndarray, shape (s, s)
-        Stage matrix, strictly lower triangular.
-    b, c : ndarray, shape (s,)
-        Weights and nodes.
-    e : ndarray, shape (s + 1,)
-        Weights of the error estimate; zeros without an embedded method.
-    """
-
-    A: NDArray[np.float64]
-    b: NDArray[np.float64]
-    c: NDArray[np.float64]
-    e: NDArray[np.float64]
+from saleg.kernel.tuples import Tableau
 
 
 def _tableau(rows: list[list[float]], b: list[float], e: list[float] | None = None) -> Tableau:

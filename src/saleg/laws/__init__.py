@@ -37,6 +37,7 @@ from saleg.laws.control.intake import HeatedIntake, RatedIntake
 from saleg.laws.control.load import PowerDemand, ScaledLoad, StrokeRegulator
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
+from saleg.laws.earlier_names import accept_earlier_names
 from saleg.laws.friction import (
     BlairViscousFriction,
     ConstantFriction,
@@ -68,6 +69,8 @@ from saleg.laws.ignition import (
 )
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
 from saleg.laws.springs import EndStops, LinearSprings, PreloadedSprings, ProgressiveSprings
+
+accept_earlier_names()
 
 __all__ = [
     "ActuatorLaw",

@@ -33,7 +33,7 @@ class RegulatedAlternator(Alternator):
     target_stroke: float = quantity("-", default=0.9, low=0, high=1)
     maximum_weight: float = quantity("-", default=1e3, low=0)
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+    def at_dead_centre(self, load_weight: float, stroke: Stroke) -> float:
         """Load weight W [-], Eq. 59."""
         error = self.target_stroke * stroke.maximum - stroke.length
         weight = 1.0 - self.regulator_gain * error / stroke.half_maximum
@@ -61,13 +61,50 @@ class LinearLoad(RegulatedAlternator):
     load_constant: float = quantity("N s/m", default=70.0, low=0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
-    def force(self, held: float, motion: Motion) -> float:
-        """Force against positive velocity [N], Eq. 47."""
-        return held * self.load_constant * motion.v
+    @classmethod
+    def from_circuit(
+        cls,
+        flux_gradient: float,
+        load_resistance: float,
+        *,
+        efficiency: float = 0.95,
+        **regulator: float,
+    ) -> LinearLoad:
+        """Load of an equivalent circuit as Eq. 46 and 47 have it: ``c_A = k^2 / (eta R)``.
 
-    def electrical_power(self, held: float, motion: Motion) -> float:
+        The electrical power is that of the induced voltage on the load, ``(k v)^2 / R``; all losses
+        are in the efficiency. :class:`CircuitAlternator` has a resistance of the coils instead.
+
+        Parameters
+        ----------
+        flux_gradient : float
+            Change of the linked flux with position, k [V s/m].
+        load_resistance : float
+            Resistance R of the load [ohm].
+        efficiency : float
+            Electrical over mechanical power eta [-].
+        **regulator
+            See :class:`RegulatedAlternator`.
+
+        Returns
+        -------
+        LinearLoad
+
+        Examples
+        --------
+        >>> round(LinearLoad.from_circuit(50.0, 37.3).load_constant, 1)
+        70.6
+        """
+        constant = flux_gradient**2 / (efficiency * load_resistance)
+        return cls(load_constant=constant, efficiency=efficiency, **regulator)
+
+    def force(self, load_weight: float, motion: Motion) -> float:
+        """Force against positive velocity [N], Eq. 47."""
+        return load_weight * self.load_constant * motion.v
+
+    def electrical_power(self, load_weight: float, motion: Motion) -> float:
         """Electrical power [W], Eq. 45."""
-        return self.efficiency * held * self.load_constant * motion.v * motion.v
+        return self.efficiency * load_weight * self.load_constant * motion.v * motion.v
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,13 +128,13 @@ class ConstantForce(RegulatedAlternator):
     amplitude: float = quantity("N", default=1000.0, low=0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, load_weight: float, motion: Motion) -> float:
         """Force against positive velocity [N]."""
-        return held * self.amplitude * motion.direction
+        return load_weight * self.amplitude * motion.direction
 
-    def electrical_power(self, held: float, motion: Motion) -> float:
+    def electrical_power(self, load_weight: float, motion: Motion) -> float:
         """Electrical power [W]."""
-        return self.efficiency * held * self.amplitude * motion.direction * motion.v
+        return self.efficiency * load_weight * self.amplitude * motion.direction * motion.v
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,15 +162,15 @@ class CosineForce(RegulatedAlternator):
     half_stroke: float = quantity("m", default=0.1, low=0, open_low=True)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, load_weight: float, motion: Motion) -> float:
         """Force against positive velocity [N], Eq. 33."""
         shape = math.cos(0.5 * math.pi * motion.x / self.half_stroke)
-        return held * self.amplitude * shape * motion.direction
+        return load_weight * self.amplitude * shape * motion.direction
 
-    def electrical_power(self, held: float, motion: Motion) -> float:
+    def electrical_power(self, load_weight: float, motion: Motion) -> float:
         """Electrical power [W]."""
         shape = math.cos(0.5 * math.pi * motion.x / self.half_stroke)
-        return self.efficiency * held * self.amplitude * shape * motion.direction * motion.v
+        return self.efficiency * load_weight * self.amplitude * shape * motion.direction * motion.v
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,18 +205,18 @@ class CircuitAlternator(RegulatedAlternator):
     load_resistance: float = quantity("ohm", default=33.9, low=0, open_low=True)
     least_weight: float = quantity("-", default=0.02, low=0, open_low=True)
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, load_weight: float, motion: Motion) -> float:
         """Force against positive velocity [N], Eq. 46."""
         return self.flux_gradient * motion.current
 
-    def electrical_power(self, held: float, motion: Motion) -> float:
+    def electrical_power(self, load_weight: float, motion: Motion) -> float:
         """Electrical power [W], Eq. 43."""
-        load = self.load_resistance / max(held, self.least_weight)
+        load = self.load_resistance / max(load_weight, self.least_weight)
         return load * motion.current * motion.current
 
-    def current_rate(self, held: float, motion: Motion) -> float:
+    def current_rate(self, load_weight: float, motion: Motion) -> float:
         """Rate of the current [A/s], Eq. 43-44."""
-        load = self.load_resistance / max(held, self.least_weight)
+        load = self.load_resistance / max(load_weight, self.least_weight)
         voltage = self.flux_gradient * motion.v
         return (voltage - (self.coil_resistance + load) * motion.current) / self.inductance
 
@@ -216,18 +253,18 @@ class FluxProfile(RegulatedAlternator):
     sines: tuple[float, ...] = series("-", default=(0.0,))
     cogging: tuple[float, ...] = series("N", default=(0.0,))
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, load_weight: float, motion: Motion) -> float:
         """Force against positive velocity [N]."""
         phase = 2.0 * math.pi * motion.x / self.wavelength
         flux = relative_flux(phase, self.cosines, self.sines)
         cogging = fourier_sines(phase, self.cogging)
-        return held * self.load_constant * flux * flux * motion.v + cogging
+        return load_weight * self.load_constant * flux * flux * motion.v + cogging
 
-    def electrical_power(self, held: float, motion: Motion) -> float:
+    def electrical_power(self, load_weight: float, motion: Motion) -> float:
         """Electrical power [W]."""
         phase = 2.0 * math.pi * motion.x / self.wavelength
         flux = relative_flux(phase, self.cosines, self.sines)
-        return self.efficiency * held * self.load_constant * (flux * motion.v) ** 2
+        return self.efficiency * load_weight * self.load_constant * (flux * motion.v) ** 2
 
 
 def relative_flux(phase: float, cosines: tuple[float, ...], sines: tuple[float, ...]) -> float:
@@ -272,13 +309,17 @@ class ForceMap(RegulatedAlternator):
     )
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, load_weight: float, motion: Motion) -> float:
         """Force against positive velocity [N]."""
-        return held * bilinear(motion.x, motion.v, self.positions, self.velocities, self.forces)
+        return load_weight * bilinear(
+            motion.x, motion.v, self.positions, self.velocities, self.forces
+        )
 
-    def electrical_power(self, held: float, motion: Motion) -> float:
+    def electrical_power(self, load_weight: float, motion: Motion) -> float:
         """Electrical power [W]."""
-        force = held * bilinear(motion.x, motion.v, self.positions, self.velocities, self.forces)
+        force = load_weight * bilinear(
+            motion.x, motion.v, self.positions, self.velocities, self.forces
+        )
         return self.efficiency * force * motion.v
 
 
@@ -305,16 +346,16 @@ class SinusoidalMotor(Alternator):
     phase: float = quantity("rad", default=0.0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1, open_low=True)
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+    def at_dead_centre(self, load_weight: float, stroke: Stroke) -> float:
         """Load weight [-]: one, it is not regulated."""
         return 1.0
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, load_weight: float, motion: Motion) -> float:
         """Force against positive velocity [N]."""
         angle = 2.0 * math.pi * self.frequency * motion.t + self.phase
         return -self.amplitude * math.sin(angle)
 
-    def electrical_power(self, held: float, motion: Motion) -> float:
+    def electrical_power(self, load_weight: float, motion: Motion) -> float:
         """Electrical power [W]; negative where it drives."""
         angle = 2.0 * math.pi * self.frequency * motion.t + self.phase
         mechanical = -self.amplitude * math.sin(angle) * motion.v

@@ -1,4 +1,4 @@
-"""What a law is shown: plain named tuples, SI units throughout.
+"""Arguments of the laws: plain named tuples, SI units throughout.
 
 The kernel fills them from its own variables; a law never sees how the kernel integrates.
 """
@@ -16,7 +16,7 @@ class Gas(NamedTuple):
     p_motored : float
         Pressure the charge would have without combustion [Pa]; equals `p` unless the run
         integrates the motored pressure.
-    height : float
+    clearance : float
         Distance from piston crown to cylinder head [m].
     bore : float
         Bore of the chamber [m].
@@ -26,8 +26,8 @@ class Gas(NamedTuple):
         Temperature of head, liner and crown [K].
     burning : float
         1 while heat is being released, otherwise 0.
-    height_rate : float
-        Rate of the height [m/s], negative in compression.
+    clearance_rate : float
+        Rate of the clearance [m/s], negative in compression.
     p_rate : float
         Rate of the pressure [Pa/s]; shown to ignition laws only, 0 elsewhere.
     """
@@ -36,17 +36,17 @@ class Gas(NamedTuple):
     T: float
     V: float
     p_motored: float
-    height: float
+    clearance: float
     bore: float
     mean_piston_speed: float
     wall_temperature: float
     burning: float
-    height_rate: float = 0.0
+    clearance_rate: float = 0.0
     p_rate: float = 0.0
 
 
 class Charge(NamedTuple):
-    """What the chamber holds since its ports closed.
+    """Charge in a chamber since its ports closed.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Charge(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """Where the translator is.
+    """State of motion of the translator at one instant.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Motion(NamedTuple):
 
 
 class Stroke(NamedTuple):
-    """What is known at a dead centre about the stroke that ends there.
+    """Stroke that ends at a dead centre, as the regulating laws see it.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class Stroke(NamedTuple):
 
 
 class Signals(NamedTuple):
-    """What a controller is shown: measurements of the stroke just ended, and ratings.
+    """Signals of a controller: measurements of the stroke just ended, and ratings.
 
     Attributes
     ----------
@@ -170,7 +170,7 @@ class Signals(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """How the alternator pushes as a motor: ``amplitude sin(angle)``, positive to the right.
+    """Force of the alternator as a motor: ``amplitude sin(angle)``, positive to the right.
 
     The angle is ``phase + 2 pi (frequency s + sweep s^2 / 2)``, s the time since the command.
 
@@ -196,7 +196,7 @@ class Drive(NamedTuple):
 
 
 class Commands(NamedTuple):
-    """What a controller asks for until it is asked again.
+    """Commands of a controller, in force until its next ones.
 
     Attributes
     ----------

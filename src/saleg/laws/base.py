@@ -44,10 +44,12 @@ class Law(Quantities):
     optional : tuple of str
         Those among them with a default that suits most laws.
     at_every_step : tuple of str
-        Those among them, of gas and charge, whose formula the kernel eases
+        Those among them, of gas and charge, whose formula is reduced to fewer powers
         (:mod:`saleg.compiler.strength_reduction`).
     valid_for : tuple of Validity
         Ranges the law was made for; a run says where it left them.
+    earlier_names : dict of str to str
+        Methods that have another name now: a law that has only the earlier one is taken at that.
     mirrors : bool
         Whether its forces are the same in the mirror whatever its numbers; if not, a search for
         steady states finds out.
@@ -58,15 +60,23 @@ class Law(Quantities):
     optional: ClassVar[tuple[str, ...]] = ()
     at_every_step: ClassVar[tuple[str, ...]] = ()
     valid_for: ClassVar[tuple[Validity, ...]] = ()
+    earlier_names: ClassVar[dict[str, str]] = {}
     mirrors: ClassVar[bool] = False
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        for earlier, name in cls.earlier_names.items():
+            if earlier in vars(cls) and name not in vars(cls):
+                setattr(cls, name, vars(cls)[earlier])
 
 
 class GasProperties(Law):
     """Caloric properties of the ideal gas in a chamber; needs a field ``gas_constant`` [J/kg/K]."""
 
     slot = "gas_properties"
-    compiled = ("gamma", "internal_energy", "kink")
-    optional = ("kink",)
+    compiled = ("gamma", "internal_energy", "breakpoint")
+    optional = ("breakpoint",)
+    earlier_names: ClassVar[dict[str, str]] = {"kink": "breakpoint"}
 
     gas_constant: float
 
@@ -78,7 +88,7 @@ class GasProperties(Law):
         """Specific internal energy [J/kg] at temperature `T` [K]: the integral of R/(gamma - 1)."""
         raise NotImplementedError
 
-    def kink(self) -> float:
+    def breakpoint(self) -> float:
         """Temperature at which gamma is not smooth [K], so that steps end there; 0 for none."""
         return 0.0
 
@@ -196,42 +206,42 @@ class Springs(Law):
 class Friction(Law):
     """Friction of bearings and rings.
 
-    `held` is one number the law keeps from dead centre to dead centre; what it means is the
-    law's own affair.
+    `memory` is one number the law keeps from dead centre to dead centre, for instance its
+    coefficient; the meaning is its own.
     """
 
     slot = "friction"
     compiled = ("at_dead_centre", "force")
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
-        """Return the number to hold until the next dead centre."""
+    def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
+        """Number to remember until the next dead centre; `memory` is -1 at the start of a run."""
         raise NotImplementedError
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, memory: float, motion: Motion) -> float:
         """Force against positive velocity [N]."""
         raise NotImplementedError
 
 
 class Alternator(Law):
-    """Linear alternator; `held` is its load weight, set anew at each dead centre."""
+    """Linear alternator; its load weight is set anew at each dead centre."""
 
     slot = "alternator"
     compiled = ("at_dead_centre", "force", "electrical_power", "current_rate")
     optional = ("current_rate",)
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
-        """Return the load weight [-] until the next dead centre."""
+    def at_dead_centre(self, load_weight: float, stroke: Stroke) -> float:
+        """Load weight [-] until the next dead centre."""
         raise NotImplementedError
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, load_weight: float, motion: Motion) -> float:
         """Force against positive velocity [N]."""
         raise NotImplementedError
 
-    def electrical_power(self, held: float, motion: Motion) -> float:
+    def electrical_power(self, load_weight: float, motion: Motion) -> float:
         """Electrical power delivered [W]."""
         raise NotImplementedError
 
-    def current_rate(self, held: float, motion: Motion) -> float:
+    def current_rate(self, load_weight: float, motion: Motion) -> float:
         """Rate of the current [A/s], for a law that has one (``motion.current``)."""
         return 0.0
 

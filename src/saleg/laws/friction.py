@@ -16,11 +16,11 @@ class NoFriction(Friction):
 
     mirrors: ClassVar[bool] = True
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
-        """Nothing is held: zero."""
+    def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
+        """Nothing to remember: zero."""
         return 0.0
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, memory: float, motion: Motion) -> float:
         """Force against positive velocity [N]: zero."""
         return 0.0
 
@@ -42,14 +42,14 @@ class ConstantFriction(Friction):
 
     factor: float = quantity("kg/m^2/s", default=150.0, low=0)
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+    def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
         """Force [N], Eq. 37."""
         speed = 60.0 * 0.5 / stroke.duration
         return self.factor * 0.5 * stroke.piston_area * stroke.length * speed
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, memory: float, motion: Motion) -> float:
         """Force against positive velocity [N]."""
-        return held * motion.direction
+        return memory * motion.direction
 
 
 @dataclass(frozen=True)
@@ -72,13 +72,13 @@ class CoulombViscousFriction(Friction):
     coulomb: float = quantity("N", default=50.0, low=0)
     viscous: float = quantity("N s/m", default=8.0, low=0)
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+    def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
         """Coulomb force [N]."""
         return self.coulomb
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, memory: float, motion: Motion) -> float:
         """Force against positive velocity [N], Eq. 38."""
-        return held * motion.direction + self.viscous * motion.v
+        return memory * motion.direction + self.viscous * motion.v
 
 
 @dataclass(frozen=True)
@@ -95,13 +95,13 @@ class ViscousFriction(Friction):
 
     coefficient: float = quantity("N s/m", default=0.0, low=0)
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+    def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
         """Friction coefficient [N s/m]."""
         return self.coefficient
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, memory: float, motion: Motion) -> float:
         """Force against positive velocity [N], Eq. 39."""
-        return held * motion.v
+        return memory * motion.v
 
 
 @dataclass(frozen=True)
@@ -120,14 +120,14 @@ class BlairViscousFriction(Friction):
 
     factor: float = quantity("kg/m^2/s", default=13.7, low=0)
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+    def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
         """Friction coefficient [N s/m], Eq. 40."""
         frequency = 0.5 / stroke.duration
         return self.factor * 0.5 * stroke.piston_area * stroke.maximum * 60.0 * frequency
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, memory: float, motion: Motion) -> float:
         """Force against positive velocity [N], Eq. 39."""
-        return held * motion.v
+        return memory * motion.v
 
 
 @dataclass(frozen=True)
@@ -135,8 +135,8 @@ class FrictionShare(Friction):
     """Viscous friction tuned until it takes a given share of the fuel energy (3.1, 3.6.1).
 
     At each dead centre the coefficient moves towards the one that would have made the friction
-    work of the last two strokes that share of their fresh fuel energy; without fresh fuel it is
-    held.
+    work of the last two strokes that share of their fresh fuel energy; without fresh fuel it
+    stays.
 
     Parameters
     ----------
@@ -154,15 +154,15 @@ class FrictionShare(Friction):
     relaxation: float = quantity("-", default=0.5, low=0, high=1, open_low=True)
     initial: float = quantity("N s/m", default=10.0, low=0)
 
-    def at_dead_centre(self, held: float, stroke: Stroke) -> float:
+    def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
         """Friction coefficient [N s/m]."""
-        if held < 0.0:
+        if memory < 0.0:
             return self.initial
         if stroke.fuel_energy <= 0.0 or stroke.speed_squared <= 0.0:
-            return held
+            return memory
         wanted = self.share * stroke.fuel_energy / stroke.speed_squared
-        return held + self.relaxation * (wanted - held)
+        return memory + self.relaxation * (wanted - memory)
 
-    def force(self, held: float, motion: Motion) -> float:
+    def force(self, memory: float, motion: Motion) -> float:
         """Force against positive velocity [N], Eq. 39."""
-        return held * motion.v
+        return memory * motion.v

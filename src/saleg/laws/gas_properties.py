@@ -61,7 +61,7 @@ class ChangGas(GasProperties):
         """Ratio of specific heats [-], Eq. 49."""
         return chang_gamma(min(T, HOLD))
 
-    def kink(self) -> float:
+    def breakpoint(self) -> float:
         """Temperature at which gamma is not smooth [K]: where its hold begins."""
         return HOLD
 

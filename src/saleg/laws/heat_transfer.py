@@ -30,7 +30,7 @@ class Hohenberg(HeatTransfer):
     Examples
     --------
     >>> from saleg.laws import Gas
-    >>> gas = Gas(p=50e5, T=1500.0, V=1e-4, p_motored=50e5, height=0.03, bore=0.064,
+    >>> gas = Gas(p=50e5, T=1500.0, V=1e-4, p_motored=50e5, clearance=0.03, bore=0.064,
     ...           mean_piston_speed=5.0, wall_temperature=550.0, burning=0.0)
     >>> round(Hohenberg(a=130.0).coefficient(gas, None), 2)
     1223.56
@@ -83,7 +83,7 @@ class Woschni(HeatTransfer):
 class Chang(HeatTransfer):
     """Woschni's correlation modified for HCCI (Chang et al., SAE 2004-01-2996).
 
-    ``h = alpha height^-0.2 p^0.8 T^-0.73 w^0.8``, p in kPa, the height of the chamber in m; w as in
+    ``h = alpha clearance^-0.2 p^0.8 T^-0.73 w^0.8``, p in kPa, the clearance in m; w as in
     :class:`Woschni` with a sixth of its combustion term.
 
     Parameters
@@ -108,7 +108,7 @@ class Chang(HeatTransfer):
     def coefficient(self, gas: Gas, charge: Charge) -> float:
         """Heat-transfer coefficient [W/m^2/K]."""
         speed = woschni_speed(gas, charge, self.c1, self.c2)
-        size = self.scale * self.alpha * gas.height**-0.2
+        size = self.scale * self.alpha * gas.clearance**-0.2
         return size * (gas.p * 1e-3) ** 0.8 * gas.T**-0.73 * speed**0.8
 
 
@@ -189,8 +189,8 @@ class PolytropicLoss(HeatTransfer):
 
     def coefficient(self, gas: Gas, charge: Charge) -> float:
         """Heat flow over area and temperature difference [W/m^2/K]; negative if against it."""
-        exponent = self.compression if gas.height_rate < 0.0 else self.expansion
-        work = gas.p * gas.V / gas.height * gas.height_rate
-        area = 2.0 * gas.V / gas.height + math.pi * gas.bore * gas.height
+        exponent = self.compression if gas.clearance_rate < 0.0 else self.expansion
+        work = gas.p * gas.V / gas.clearance * gas.clearance_rate
+        area = 2.0 * gas.V / gas.clearance + math.pi * gas.bore * gas.clearance
         flow = (exponent - self.gamma) / (self.gamma - 1.0) * work
         return flow / (area * (gas.T - gas.wall_temperature))

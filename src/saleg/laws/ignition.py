@@ -155,8 +155,8 @@ class SparkAtClearance(Ignition):
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: speed inward over the way to go."""
-        way = charge.V / gas.V * gas.height - self.clearance
-        return max(-gas.height_rate, 0.0) / max(way, 1e-9)
+        way = charge.V / gas.V * gas.clearance - self.clearance
+        return max(-gas.clearance_rate, 0.0) / max(way, 1e-9)
 
 
 @dataclass(frozen=True)

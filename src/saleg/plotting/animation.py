@@ -13,7 +13,7 @@ import numpy as np
 from saleg.design import formulas
 from saleg.engine import Engine
 from saleg.errors import SalegError
-from saleg.export.place import new_file
+from saleg.files.atomic import new_file
 from saleg.plotting.cycle import last_cycle
 from saleg.plotting.machine import HOUSING, WALL, box, housing, mover, piston, springs
 from saleg.plotting.style import COINCIDING, COLOURS, finish, from_zero, marker, new_figure

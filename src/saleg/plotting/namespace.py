@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from difflib import get_close_matches
 from types import MethodType
 from typing import TYPE_CHECKING, Any
 
+from saleg.errors import nearest
 from saleg.plotting.control.timelines import controlled
 from saleg.plotting.energy import energy_pie
 from saleg.plotting.gas import (
@@ -65,9 +65,8 @@ class Plots:
     def __getattr__(self, name: str) -> Callable[..., Any]:
         if name in FIGURES:
             return MethodType(FIGURES[name], self._run)
-        near = "" if name.startswith("_") else get_close_matches(name, FIGURES, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(FIGURES)}"
-        raise AttributeError(f"no figure {name!r}; {hint}")
+        hint = "" if name.startswith("_") else nearest(name, FIGURES)
+        raise AttributeError(f"no figure {name!r}{hint or '; there are ' + ', '.join(FIGURES)}")
 
     def __dir__(self) -> list[str]:
         return list(FIGURES)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.plotting.style import axes_or_new, finish
-from saleg.studies.convergence import is_of_base_case
+from saleg.studies.printed import is_of_base_case
 
 if TYPE_CHECKING:
     import pandas as pd

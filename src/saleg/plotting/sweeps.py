@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from saleg.errors import SweepError
 from saleg.plotting.style import (
     LEFT_COLOUR,
     RIGHT_COLOUR,
@@ -20,13 +21,12 @@ from saleg.plotting.style import (
     new_figure,
 )
 from saleg.status import Status
-from saleg.sweep.points import SweepError
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-    from saleg.sweep.sobol import Indices
+    from saleg.sweep.sobol_indices import Indices
 
 #: Figures of the panels, in order.
 PANELS = (

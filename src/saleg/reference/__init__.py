@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from saleg.compiler.compose import needs_motored_pressure
 from saleg.engine import Engine, check_engine
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
@@ -29,7 +28,7 @@ from saleg.reference.segments import (
     scales,
 )
 from saleg.simulation.initial_state import State
-from saleg.simulation.integration import SettingsError
+from saleg.simulation.integration import SettingsError, check_flag
 from saleg.simulation.outcome import verdict
 from saleg.simulation.run import Run
 
@@ -92,10 +91,9 @@ def simulate(
     """
     check_engine(engine)
     rtol, stall_stroke, duration = _checked(solver, rtol, stall_stroke, duration)
-    for name, flag in (("jitted", jitted), ("motored_pressure", motored_pressure)):
-        if not isinstance(flag, (bool, np.bool_)):
-            raise SettingsError(f"{name} = {flag!r}: must be True or False")
-    running = RunningEngine.started(engine, motored_pressure or needs_motored_pressure(engine))
+    check_flag("jitted", jitted)
+    check_flag("motored_pressure", motored_pressure)
+    running = RunningEngine.started(engine, motored_pressure or engine.needs_motored_pressure)
     speed = natural_speed(running)
     method = Solver(
         method=solver,
@@ -182,5 +180,7 @@ def _final_state(running: RunningEngine) -> State:
     E = np.zeros(1, layout.ENGINE_RECORD)
     E["t"], E["stroke"] = running.t, running.machine.stroke
     E["maximum_stroke"] = running.engine.maximum_stroke
-    E["direction"] = running.machine.direction
+    E["direction"], E["t_dead_centre"] = running.machine.direction, running.t_dead_centre
+    E["length_scale"] = 0.5 * running.engine.maximum_stroke
+    E["speed_scale"] = natural_speed(running)
     return State(E, np.zeros(2, layout.CHAMBER_RECORD), running.y, running.peaks)

@@ -209,7 +209,7 @@ class RunningEngine:
         """Gas in a closed chamber, now."""
         return gas_in(self.machine, self.chambers, side, self.y.tolist())
 
-    def height(self, side: int) -> float:
+    def clearance(self, side: int) -> float:
         """Clearance between crown and head [m]."""
         c = self.chambers[side]
         return c.half_stroke + c.sign * float(self.y[POSITION])
@@ -219,7 +219,7 @@ class RunningEngine:
         chamber = self.engine.chambers[side]
         if not isinstance(chamber, Cylinder):
             return -math.inf
-        return self.height(side) - chamber.port_closing
+        return self.clearance(side) - chamber.port_closing
 
     def temperature(self, side: int) -> float:
         """Temperature [K]; that of the intake while the ports are open."""
@@ -324,7 +324,7 @@ class RunningEngine:
         c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
         c.mode, c.armed, c.t_ignition = layout.BURNING, 0.0, self.t
         self.books[side].ignition_time = self.t
-        self.books[side].ignition_height = self.height(side)
+        self.books[side].ignition_height = self.clearance(side)
         self.books[side].combustion_duration = c.duration
         if c.duration <= 0.0:
             self.burn_at_once(side)
@@ -370,7 +370,7 @@ class RunningEngine:
         assert isinstance(chamber, Cylinder)
         p, T = chamber.intake.pressure, chamber.intake.temperature
         before = self.internal_energy(side)
-        c.mass = p * c.area * self.height(side) / (c.gas_constant * T)
+        c.mass = p * c.area * self.clearance(side) / (c.gas_constant * T)
         self._compose(side, p, T)
         self.books[side].exhaust_energy += before - self.internal_energy(side)
 
@@ -382,8 +382,8 @@ class RunningEngine:
             self.end_combustion(side)
         self.spent.discard(side)
         before = self.internal_energy(side)
-        p = chamber.pressure * (self.height(side) / c.half_stroke) ** -chamber.curve_exponent
-        self._compose(side, p, p * c.area * self.height(side) / (c.mass * c.gas_constant))
+        p = chamber.pressure * (self.clearance(side) / c.half_stroke) ** -chamber.curve_exponent
+        self._compose(side, p, p * c.area * self.clearance(side) / (c.mass * c.gas_constant))
         self.books[side].exhaust_energy += before - self.internal_energy(side)
 
     def _compose(self, side: int, p: float, T: float) -> None:
@@ -395,7 +395,7 @@ class RunningEngine:
             c.mass, c.fuel, c.air, c.burnt, chamber.equivalence_ratio, ratio
         )
         c.equivalence_ratio = ratio * c.fuel / c.air if c.fuel > 0.0 else 0.0
-        c.p_closing, c.T_closing, c.V_closing = p, T, c.area * self.height(side)
+        c.p_closing, c.T_closing, c.V_closing = p, T, c.area * self.clearance(side)
         c.number += 1.0
         c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:

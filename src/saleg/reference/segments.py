@@ -86,15 +86,15 @@ def plain_rates(engine: Engine) -> Callable[[RunningEngine], Rates]:
 
 def jitted_rates(engine: Engine) -> Callable[[RunningEngine], Rates]:
     """Compile the same right-hand side, with the laws of the engine put in."""
-    from saleg.compiler.compose import kernel_for, parameters
+    from saleg.compiler.compiled_engine import compiled_engine
 
-    kernel, P = kernel_for(engine, ("plain_rhs",)), parameters(engine)
+    kernel, P, _ = compiled_engine(engine, modules=("plain_rhs",))
 
     def of(running: RunningEngine) -> Rates:
         E = _records(EngineState, [running.machine])
         C = _records(ChamberState, running.chambers)
         kernel.call("rates_of_records", P, E, C, 0.0, running.y, np.zeros_like(running.y))
-        compiled = kernel.rates_of_records
+        compiled = kernel.function("rates_of_records")
 
         def derivative(t: float, y: np.ndarray) -> np.ndarray:
             dy = np.empty_like(y)

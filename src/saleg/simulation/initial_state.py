@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.compose import check_laws
 from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.engine.start import Contents
 from saleg.errors import StartError
@@ -68,7 +67,7 @@ def prepare(engine: Engine) -> State:
     StartError
         If a law overflows or divides by zero there.
     """
-    check_laws(engine)
+    engine.check_laws()
     try:
         return _prepare(engine)
     except (ArithmeticError, ValueError) as error:
@@ -85,13 +84,13 @@ def _prepare(engine: Engine) -> State:
     C = [SimpleNamespace(**dict.fromkeys(layout.CHAMBER_RECORD.names or (), 0.0)) for _ in "lr"]
     y = [0.0] * layout.N_ALL
     y[layout.X], y[layout.V] = start.x, start.v
-    for side, held in enumerate((start.left, start.right)):
+    for side, contents in enumerate((start.left, start.right)):
         _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
-        _fill_contents(C[side], held, y, side)
+        _fill_contents(C[side], contents, y, side)
     _fill_engine(E, engine, start, C)
     refresh(engine, E, C, y)
-    for side, held in enumerate((start.left, start.right)):
-        if held.burning:
+    for side, contents in enumerate((start.left, start.right)):
+        if contents.burning and contents.fuel > 0.0:
             ignite(engine, E, C, side, y, 0)
     dy = [0.0] * layout.N_ALL
     rhs(engine, E, C, 0.0, y, dy, 0)
@@ -102,6 +101,12 @@ def _prepare(engine: Engine) -> State:
         np.array(y),
         np.zeros(layout.N_PEAKS),
     )
+
+
+def natural_period(engine: Engine) -> float:
+    """Period of a small oscillation about the midpoint [s], for scales only."""
+    stiffness = _stiffness(engine, 0.5 * engine.maximum_stroke)
+    return 2.0 * math.pi * math.sqrt(engine.translator.mass / stiffness)
 
 
 def sign(value: float) -> float:
@@ -199,14 +204,14 @@ def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
         c.late_ignition = chamber.late_ignition
 
 
-def _fill_contents(c: Any, held: Contents, y: list[float], side: int) -> None:
-    c.mode = layout.OPEN if held.is_open else layout.CLOSED
-    c.armed = layout.ARMED if held.armed and held.fuel > 0.0 else layout.DISARMED
-    c.mass, c.fuel, c.air, c.burnt = held.mass, held.fuel, held.air, held.burnt
-    c.equivalence_ratio = held.fuel * c.air_fuel_ratio / max(held.air, 1e-300)
-    height = c.half_stroke + c.sign * y[layout.X]
+def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> None:
+    c.mode = layout.OPEN if contents.is_open else layout.CLOSED
+    c.armed = layout.ARMED if contents.armed and contents.fuel > 0.0 else layout.DISARMED
+    c.mass, c.fuel, c.air, c.burnt = contents.mass, contents.fuel, contents.air, contents.burnt
+    c.equivalence_ratio = contents.fuel * c.air_fuel_ratio / max(contents.air, 1e-300)
+    clearance = c.half_stroke + c.sign * y[layout.X]
     if c.curve_exponent > 0.0:  # its charge is closed where it stands
-        c.p_closing, c.V_closing = held.pressure, c.area * height
+        c.p_closing, c.V_closing = contents.pressure, c.area * clearance
         c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
-    theta = math.log(held.pressure) + layout.G0 * math.log(height / c.half_stroke)
+    theta = math.log(contents.pressure) + layout.G0 * math.log(clearance / c.half_stroke)
     y[layout.THETA + side] = y[layout.MOTORED + side] = theta

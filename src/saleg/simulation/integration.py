@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.compose import kernel_for, needs_motored_pressure, parameters
-from saleg.compiler.controllers import control_of, nobody
+from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine, check_engine, warn_of_unusual
 from saleg.errors import SalegError
 from saleg.kernel import layout, tableaus
+from saleg.kernel.tuples import Snapshots
+from saleg.laws.arguments import Commands
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.initial_state import State, prepare
+from saleg.simulation.kernel_arguments import arguments_of
 from saleg.simulation.outcome import verdict
 from saleg.simulation.records import Records
 from saleg.simulation.run import Run
@@ -181,6 +183,17 @@ def settings_of(
     )
 
 
+def check_flag(name: str, value: Any) -> None:
+    """Refuse what is neither True nor False.
+
+    Raises
+    ------
+    SettingsError
+    """
+    if not isinstance(value, (bool, np.bool_)):
+        raise SettingsError(f"{name} = {value!r}: must be True or False")
+
+
 def integrate(engine: Engine, state: State, settings: Settings) -> Run:
     """Integrate from a state; the engine is taken to be valid."""
     course = Course(engine, state, settings)
@@ -209,37 +222,37 @@ class Course:
         settings: Settings,
         controller: Controller | None = None,
     ):
-        if needs_motored_pressure(engine):
+        if engine.needs_motored_pressure:
             settings = replace(settings, motored_pressure=True)
         self.engine, self.state, self.settings = engine, state, settings
         self.controller = controller
-        actuators = controller.actuators if controller is not None else None
-        self.kernel = kernel_for(engine, actuators=actuators)
-        asks = controller is not None and state.engine["controlled"][0] == layout.COMPILED
-        self._control = control_of(controller) if asks and controller else nobody()
+        asks = state.engine["controlled"][0] == layout.COMPILED
+        compiled = compiled_engine(engine, controller, asks=asks)
+        self.kernel = compiled.kernel
         self.options = options_record(settings, state.time + settings.duration)
         self.records = Records(bool(settings.history), settings.keep_cycles)
-        self.snapshot = _snapshot(state)
         method = tableaus.ADAPTIVE if settings.adaptive else tableaus.FIXED_STEP[settings.order]
         order = tableaus.ADAPTIVE_ORDER if settings.adaptive else float(settings.order)
-        self._before = (
-            parameters(engine, actuators),
-            state.engine,
-            state.chambers,
-            state.y,
-            state.peaks,
-            tuple(method),
-            order,
-            self.options,
+        self._arguments = arguments_of(
+            compiled,
+            state,
+            tableau=method,
+            order=order,
+            options=self.options,
+            tables=self.records.tables,
         )
-        self._work = work_space(len(method.b))
         #: What else people want to know of how the run came about.
         self.described: dict[str, Any] = {}
 
     @property
-    def commanded(self) -> np.ndarray:
+    def snapshots(self) -> Snapshots:
+        """States at the last two left dead centres."""
+        return self._arguments.snapshots
+
+    @property
+    def commanded(self) -> Commands:
         """What a controller in the kernel has asked for last."""
-        return self._control[-1]
+        return Commands(*self._arguments.control.commands[0].tolist())
 
     @property
     def strokes(self) -> np.ndarray:
@@ -259,26 +272,15 @@ class Course:
 
     def advance(self) -> int:
         """Call the kernel once; returns why it stopped."""
-        records = self.records
-        code = self.kernel.call(
-            "run_on",
-            *self._before,
-            records.strokes,
-            records.events,
-            records.history,
-            records.filled,
-            self.snapshot,
-            self._work,
-            self._control,
-        )
-        records.make_room()
+        code = self.kernel.call("run_on", self._arguments)
+        self.records.make_room()
         return int(code)
 
     def replay(self) -> Replay | None:
         """How to see the last full cycle again; None without one."""
-        if self.snapshot[0]["mass"][1] == 0.0 or self.settings.last_stroke < math.inf:
+        if self.snapshots.engine["mass"][1] == 0.0 or self.settings.last_stroke < math.inf:
             return None
-        return Replay(self.engine, self.snapshot, self.settings, self.controller)
+        return Replay(self.engine, self.snapshots, self.settings, self.controller)
 
     def run(self, status: Status, message: str, replay: Callable[[], Run] | None = None) -> Run:
         """What has been recorded, as a run."""
@@ -315,33 +317,12 @@ def options_record(settings: Settings, t_end: float) -> np.ndarray:
     return options
 
 
-def work_space(stages: int) -> tuple[Any, ...]:
-    """Scratch arrays of the integrator: rates of the stages, new state, and more to spare."""
-    n = layout.N_ALL
-    trail = np.zeros(layout.N_PEAKS + 1)
-    spare = (np.zeros(n), np.zeros(n), np.zeros((stages + 1, n)), np.zeros(n), trail)
-    return np.zeros((stages + 1, n)), np.zeros(n), spare
-
-
-def _snapshot(state: State) -> tuple[np.ndarray, ...]:
-    """Room for the states at the last two left dead centres; the start may be one."""
-    kept = (
-        np.zeros(2, layout.ENGINE_RECORD),
-        np.zeros((2, 2), layout.CHAMBER_RECORD),
-        np.zeros((2, layout.N_ALL)),
-    )
-    E = state.engine[0]
-    if math.isfinite(E["x_dead_centre"]) and E["direction"] > 0.0:
-        kept[0][0], kept[1][0], kept[2][0] = E, state.chambers, state.y
-    return kept
-
-
 @dataclass(frozen=True, eq=False)
 class Replay:
     """Simulates the last full cycle again, with every instant recorded and every peak located."""
 
     engine: Engine
-    snapshot: tuple[np.ndarray, ...]
+    snapshots: Snapshots
     settings: Settings
     controller: Controller | None = None
 
@@ -351,15 +332,20 @@ class Replay:
         code = course.go_on()
         return course.run(*verdict(self.engine, code, course.state, course.strokes))
 
+    @property
+    def start(self) -> State:
+        """State at the dead centre the cycle begins at."""
+        engine, chambers, y = (part[1].copy() for part in self.snapshots)
+        return State(engine.reshape(1), chambers, y, np.zeros(layout.N_PEAKS))
+
     def course(self) -> Course:
         """The cycle about to begin."""
-        E, C, y = (part[1].copy() for part in self.snapshot)
-        state = State(E.reshape(1), C, y, np.zeros(layout.N_PEAKS))
-        period = float(self.snapshot[0]["t"][0] - self.snapshot[0]["t"][1])
+        state, times = self.start, self.snapshots.engine["t"]
+        period = float(times[0] - times[1])
         asked = replace(
             self.settings,
             duration=1.5 * period,
-            last_stroke=float(E["strokes"]) + 2.0,
+            last_stroke=float(state.engine["strokes"][0]) + 2.0,
             history=1,
             dense=ORBIT_POINTS,
             peaks=2,

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.simulation.initial_state import State
 from saleg.simulation.performance import EnergyBalance
-from saleg.simulation.run import last_cycle_start
 from saleg.status import Status
 
 #: Change of the dead centres per cycle, over the half stroke (Eq. 68), below which a run is steady.
 STEADY = 1e-6
+#: Distance from where dead centres, charges and what laws remember are heading, in half strokes or
+#: relative, within which a run is steady.
+NEAR = 1e-4
 #: Residual of a cycle's energy balance, over the heat released, beyond which it is no result.
 MOST_IMBALANCE = 0.05
 #: Cycles over which it must stay below.
 STEADY_CYCLES = 5
+#: Natural periods without a dead centre after which a piston may stand still, and the share of the
+#: maximum stroke that it would move in one more.
+STILL_PERIODS = 10.0
+STILL = 0.01
 
 
 def verdict(
@@ -51,6 +59,12 @@ def verdict(
         )
     if E["direction"] == 0.0:
         return Status.COMPLETED, f"never moved to t = {t:.6g} s: in equilibrium; try another start"
+    if _stands_still(state):
+        since = float(E["t_dead_centre"])
+        return Status.STALLED, (
+            f"the piston stands still at x = {x:.5g} mm, no dead centre since t = {since:.6g} s; "
+            f"{_STALL_HINT}"
+        )
     off = _imbalance(strokes) if conserves else 0.0
     if off > MOST_IMBALANCE:
         return Status.STEP_FAILURE, (
@@ -60,42 +74,77 @@ def verdict(
     return _at_end_of_time(engine, t, strokes)
 
 
+def _stands_still(state: State) -> bool:
+    """Whether an overdamped piston creeps towards its equilibrium, without another dead centre."""
+    E = state.engine[0]
+    period = 2.0 * math.pi * float(E["length_scale"] / E["speed_scale"])
+    waited = float(E["t"] - E["t_dead_centre"])
+    coming = abs(float(state.y[layout.V])) * period
+    return waited > STILL_PERIODS * period and coming < STILL * float(E["maximum_stroke"])
+
+
 def _imbalance(strokes: np.ndarray) -> float:
-    """Residual of the energy balance of the last cycle over the heat released."""
-    start = last_cycle_start(strokes)
-    if start is None or start == 0:
+    """Residual of the energy balance of the last two strokes over the heat released."""
+    if len(strokes) < 3:
         return 0.0
-    balance = EnergyBalance.between(strokes[start - 1], strokes[start : start + 2])
+    balance = EnergyBalance.between(strokes[-3], strokes[-2:])
     return abs(balance.residual) / balance.released if balance.released > 0.0 else 0.0
 
 
-PER_CYCLE = "dead centres change by {:.1e} half strokes per cycle"
 _STALL_HINT = "try a smaller load, more fuel, or another start"
 
 
 def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Status, str]:
-    start = last_cycle_start(strokes)
-    if start is None:
+    """Outcome of a run whose time is up, by its last two strokes, whichever side they end on."""
+    if len(strokes) < 2:
         return Status.COMPLETED, f"ran to t = {t:.6g} s, less than a cycle; try a longer run"
-    cycle = strokes[start : start + 2]
-    if engine.fires and not cycle["heat_released"].sum() > 0.0:
+    cycle = strokes[-2:]
+    if is_dead(engine, cycle):
         fired = np.flatnonzero(strokes["heat_released"].sum(axis=1) > 0.0)
         since = f"since t = {float(strokes['t'][fired[-1]]):.6g} s" if len(fired) else "at all"
         return Status.STALLED, f"ran to t = {t:.6g} s but has not fired {since}; {_STALL_HINT}"
-    if engine.fires and not cycle["electrical_energy"].sum() > 1e-9 * cycle["heat_released"].sum():
+    steady, how = settled(engine, strokes)
+    if is_idling(engine, cycle):
         weight = float(cycle["load_weight"][-1])
         why = (
             "the alternator gives none; try a larger load or efficiency"
             if weight > 0.0
             else "the load weight is 0; try more fuel or a smaller alternator.target_stroke"
         )
-        return Status.IDLING, f"fires at t = {t:.6g} s but delivers no power: {why}"
-    change = change_per_cycle(engine, strokes[: start + 2])
-    if change is not None and change < STEADY:
-        return Status.STEADY, f"steady at t = {t:.6g} s: {PER_CYCLE.format(change)}"
+        status = Status.IDLING if steady else Status.COMPLETED
+        return status, f"fires at t = {t:.6g} s but delivers no power: {why}; {how}"
+    if steady:
+        return Status.STEADY, f"steady at t = {t:.6g} s: {how}"
+    return Status.COMPLETED, f"ran to t = {t:.6g} s, {how}"
+
+
+def is_dead(engine: Engine, cycle: np.ndarray) -> bool:
+    """Whether an engine with cylinders neither fires in a cycle nor is motored."""
+    driven = float(cycle["alternator_work"].sum()) < 0.0
+    return engine.has_combustion and not driven and not float(cycle["heat_released"].sum()) > 0.0
+
+
+def is_idling(engine: Engine, cycle: np.ndarray) -> bool:
+    """Whether an engine fires in a cycle but delivers no power."""
+    heat = float(cycle["heat_released"].sum())
+    return heat > 0.0 and not float(cycle["electrical_energy"].sum()) > 1e-9 * heat
+
+
+def settled(engine: Engine, strokes: np.ndarray) -> tuple[bool, str]:
+    """Whether a run has come to its steady state, and how near it is in words.
+
+    A small change per cycle is not enough: what decays slowly changes little and has far to go.
+    """
+    change = change_per_cycle(engine, strokes)
     if change is None:
-        return Status.COMPLETED, f"ran to t = {t:.6g} s, too few cycles to call it steady"
-    return Status.COMPLETED, f"ran to t = {t:.6g} s, not steady yet: {PER_CYCLE.format(change)}"
+        return False, "too few cycles to call it steady"
+    what = f"dead centres change by {change:.1e} half strokes per cycle"
+    if change >= STEADY:
+        return False, f"not steady yet: {what}"
+    distance = distance_to_go(engine, strokes)
+    if distance > NEAR:
+        return False, f"not steady yet: {what}, but what changes slowly has {distance:.1e} to go"
+    return True, what
 
 
 def change_per_cycle(engine: Engine, strokes: np.ndarray) -> float | None:
@@ -104,3 +153,38 @@ def change_per_cycle(engine: Engine, strokes: np.ndarray) -> float | None:
     if len(ends) < 2 * STEADY_CYCLES + 2:
         return None
     return float(np.abs(ends[2:] - ends[:-2]).max() / (0.5 * engine.maximum_stroke))
+
+
+def distance_to_go(engine: Engine, strokes: np.ndarray) -> float:
+    """Distance of the last cycle from where dead centres, charges and memories are heading [-].
+
+    What shrinks by a factor m from one change to the next still has ``change m / (1 - m)`` to go:
+    Aitken's estimate ``b^2 / |a - b|`` from two consecutive changes a and b. Of the last few the
+    smallest counts, so that scatter of the integrator is not taken for a slow decay.
+
+    Parameters
+    ----------
+    engine : Engine
+    strokes : ndarray of STROKE_RECORD
+        At least a dozen strokes.
+
+    Returns
+    -------
+    float
+        The largest of all, in half strokes or relative.
+    """
+    rows = strokes[-2 * STEADY_CYCLES - 2 :]
+    names = ("load_weight", "friction_held")
+    sides = ("internal_energy", "fuel_energy", "charge_mass")
+    kept = [rows[name] for name in names] + [rows[name][:, n] for name in sides for n in (0, 1)]
+    sizes = [float(np.abs(values).max()) for values in kept]
+    series = np.array(
+        [rows["x_end"] / (0.5 * engine.maximum_stroke)]
+        + [values / size for values, size in zip(kept, sizes, strict=True) if size > 0.0]
+    )
+    changes = series[:, 2:] - series[:, :-2]  # each dead centre with the one a cycle before
+    before, after = changes[:, :-2], changes[:, 2:]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        left = np.where(after == 0.0, 0.0, after**2 / np.abs(before - after))
+    each = np.maximum(left[:, ::2].min(axis=1), left[:, 1::2].min(axis=1))
+    return float(each.max())

@@ -12,7 +12,7 @@ import numpy as np
 from saleg.engine import CombustionChamber, Engine
 from saleg.simulation.indicators import (
     adverse_work,
-    cycle_compression_ratios,
+    compression_ratio,
     repeatability,
     timing,
 )
@@ -163,6 +163,7 @@ class Performance:
         """
         period = float(strokes["duration"].sum())
         power = float(strokes["electrical_energy"].sum()) / period
+        ends = np.append(strokes["x_start"], strokes["x_end"])
         fuel = float(strokes["fresh_fuel_energy"].sum())
         cylinders = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
         work = float(strokes["gas_work"].sum())
@@ -171,7 +172,7 @@ class Performance:
         masses = strokes["charge_mass"][-1][cylinders] if any(cylinders) else np.array([nan])
         return cls(
             stroke=float(np.abs(strokes["x_end"] - strokes["x_start"]).mean()),
-            compression_ratio=float(cycle_compression_ratios(engine, strokes)[0]),
+            compression_ratio=float(compression_ratio(engine, ends.min(), ends.max())),
             frequency=1.0 / period,
             power=power,
             rms_power=math.sqrt(max(float(strokes["electrical_squared"].sum()), 0.0) / period),

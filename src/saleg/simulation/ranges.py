@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from saleg.compiler.compose import slots_of
 from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.laws import Law
@@ -57,9 +56,7 @@ def range_exits(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> lis
 
 def _rows(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> Iterator[dict[str, Any]]:
     for side, (name, chamber) in enumerate(zip(("left", "right"), engine.chambers, strict=True)):
-        for slot, law in slots_of(chamber).items():
-            if not hasattr(chamber, slot):
-                continue  # an idle law of a chamber that never lights
+        for slot, law in chamber.laws.items():
             for validity in law.valid_for:
                 weights = _time_at_work(slot, history, side)
                 values = _values(engine, strokes, history, side, validity.quantity)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from saleg.kernel import layout
+from saleg.kernel.tuples import Tables
 from saleg.simulation.indicators import CR_CYCLES
 
 #: Rows of history by which its buffer grows.
@@ -52,24 +53,30 @@ class Records:
         self.strokes = np.zeros(STROKE_ROWS, layout.STROKE_RECORD)
         self.events = np.zeros(EVENTS_PER_STROKE * STROKE_ROWS, layout.EVENT_RECORD)
         self.history = np.zeros(HISTORY_CHUNK if history else 0, layout.HISTORY_RECORD)
-        self.filled = np.zeros(3, dtype=np.int64)
+        self.filled = np.zeros(1, layout.FILLED_RECORD)
         self.kept_strokes = Kept(layout.STROKE_RECORD, last)
         self.kept_events = Kept(layout.EVENT_RECORD, events)
+
+    @property
+    def tables(self) -> Tables:
+        """The buffers as the kernel fills them."""
+        return Tables(self.strokes, self.events, self.history, self.filled)
 
     def make_room(self) -> None:
         """Empty the buffers of strokes and events; let that of the history grow where it is.
 
         A long history is large: it is never copied, so it is never in memory twice.
         """
-        self.kept_strokes.add(self.strokes[: self.filled[0]])
-        self.kept_events.add(self.events[: self.filled[1]])
-        self.filled[:2] = 0
-        if len(self.history) and len(self.history) - self.filled[2] < HISTORY_CHUNK // 2:
+        filled = self.filled[0]
+        self.kept_strokes.add(self.strokes[: filled["strokes"]])
+        self.kept_events.add(self.events[: filled["events"]])
+        filled["strokes"] = filled["events"] = 0
+        if len(self.history) and len(self.history) - filled["history"] < HISTORY_CHUNK // 2:
             self.history.resize(len(self.history) + HISTORY_CHUNK, refcheck=False)
 
     def finished_history(self) -> np.ndarray | None:
         """The history cut to its length; None if none was recorded."""
         if not len(self.history):
             return None
-        self.history.resize(int(self.filled[2]), refcheck=False)
+        self.history.resize(int(self.filled[0]["history"]), refcheck=False)
         return self.history

@@ -1,5 +1,6 @@
 """Steady states: fixed points of the return map, their stability and their branches."""
 
-from saleg.steady.solver import SteadyState, steady_state
+from saleg.steady import continuation
+from saleg.steady.solver import Effort, NoSteadyState, SteadyState, steady_state
 
-__all__ = ["SteadyState", "steady_state"]
+__all__ = ["Effort", "NoSteadyState", "SteadyState", "continuation", "steady_state"]

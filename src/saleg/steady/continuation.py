@@ -26,7 +26,7 @@ from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.steady.return_map import (
     NoReturn,
     ReturnMap,
-    adiabatic_chambers,
+    conserved_entries,
     is_symmetric,
     repeats_itself,
 )
@@ -224,7 +224,7 @@ def branch(
     engine.replace(**{path: end}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")
-    if adiabatic_chambers(engine):
+    if conserved_entries(engine):
         raise NoBranch(
             "a sealed chamber without heat transfer keeps the entropy it is given, so its orbit is "
             "not a single one: give the bounce chamber a heat-transfer law"
@@ -273,8 +273,7 @@ class _Follower:
     def points(self, first: SteadyState) -> Iterator[Point]:
         """Points of the branch, the first steady state included."""
         assert first.replay is not None
-        E, C, y = (part[1] for part in first.replay.snapshot)
-        like = State(E.reshape(1).copy(), C.copy(), y.copy(), np.zeros(0))
+        like = first.replay.start
         s, z = 0.0, self.chart(0.0, like)[0].vector(like)
         tangent = np.zeros(len(z) + 1)
         tangent[-1] = 1.0
@@ -382,10 +381,10 @@ class _Follower:
     def point(self, s: float, z: np.ndarray, like: State, jacobian: np.ndarray) -> Point:
         """Point of the branch with its stability and one cycle."""
         chart, state = self.chart(s, like)
-        code, missed = chart.cycle(state, z)
-        if code != layout.END_OF_TIME:
-            raise NoReturn(code)
-        steady = result_of(chart, 0, chart.evaluations, missed, "continuation", FINE)
+        cycle = chart.cycle(state, z)
+        if cycle.code != layout.END_OF_TIME:
+            raise NoReturn(cycle.code)
+        steady = result_of(chart, 0, chart.evaluations, cycle.missed, "continuation", FINE)
         values = np.linalg.eigvals(jacobian)
         values = values[np.argsort(-np.abs(values))]
         period = float(steady.strokes["duration"].sum())

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import dis
+import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from types import CodeType
-from typing import Any
+from types import CodeType, FunctionType
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.compiler.compose import Kernel, kernel_for, needs_motored_pressure, parameters
-from saleg.compiler.controllers import nobody
-from saleg.compiler.source import fingerprint
-from saleg.engine import BounceChamber, Engine
+from saleg.compiler.compiled_engine import compiled_engine
+from saleg.compiler.kernel import Kernel
+from saleg.engine import BounceChamber, Chamber, Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.orbit import (
     CYCLE,
@@ -24,13 +26,18 @@ from saleg.kernel.orbit import (
     Z_CHAMBERS,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
+    mirror,
+    read_vector,
+    strokes_per_map,
     write_vector,
 )
+from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
 from saleg.laws import NoHeatTransfer, NoMisfires
-from saleg.laws.arguments import Motion
+from saleg.laws.arguments import Charge, Gas, Motion
 from saleg.laws.base import Alternator, Law
 from saleg.simulation.initial_state import State
-from saleg.simulation.integration import Settings, options_record, work_space
+from saleg.simulation.integration import STEPS_PER_CALL, Settings, options_record
+from saleg.simulation.kernel_arguments import arguments_of
 
 #: Longest time to the next return, over the natural time of half a stroke.
 LONGEST = 200.0
@@ -44,6 +51,16 @@ PROBES = tuple(
         strict=True,
     )
 )
+#: Hot gas in motion and its charge, to which every wall that takes heat has a coefficient.
+PROBE_GAS = Gas(30e5, 900.0, 1e-4, 20e5, 0.03, 0.06, 8.0, 450.0, 0.0, -5.0)
+PROBE_CHARGE = Charge(1e-4, 0.0, 1e-4, 0.0, 0.0, 1e5, 300.0, 4e-4, 3e-4)
+#: Methods of laws of motion that are shown a stroke, not a motion.
+SHOWN_NO_MOTION = ("at_dead_centre",)
+#: How Python takes a field by name, and the fields of a motion that are not the time.
+TAKE = "LOAD_ATTR"
+TIMELESS = frozenset(Motion._fields) - {"t"}
+#: Longest way of a jump at once, over the entry of the vector or one.
+FARTHEST = 0.5
 #: Difference of a central difference, over the numbers of order one in a vector.
 DIFFERENCE = 1e-5
 
@@ -62,6 +79,27 @@ class NoReturn(Exception):
         self.code = code
 
 
+class Search(NamedTuple):
+    """How a search for a fixed point, or a cycle from a given state, has ended.
+
+    Attributes
+    ----------
+    code : int
+        Why the integrator came back, as a code of :mod:`saleg.kernel.layout`.
+    maps : float
+        Maps taken.
+    residual : float
+        How far the last image is from its point [-].
+    missed : float
+        How far the whole cycle after it misses its start [-].
+    """
+
+    code: int
+    maps: float
+    residual: float
+    missed: float
+
+
 @dataclass
 class ReturnMap:
     """Return map of an engine, with the records it works on.
@@ -76,10 +114,10 @@ class ReturnMap:
         Whether the map is that of half a cycle, seen in the mirror.
     strokes : ndarray of STROKE_RECORD
         Rows of the latest map.
-    snapshot : tuple of ndarray
-        States at the last two left dead centres.
-    run : tuple
-        Arguments of the integrator, its address, and a spare chamber.
+    mapping : ReturnMapping
+        Arguments of the compiled map.
+    iterates : Iterates
+        Vectors of the latest search (see the kernel's find_orbit).
     """
 
     engine: Engine
@@ -87,105 +125,105 @@ class ReturnMap:
     state: State
     mirrored: bool
     strokes: np.ndarray
-    snapshot: tuple[np.ndarray, ...]
-    run: tuple[Any, ...]
+    mapping: ReturnMapping
+    iterates: Iterates
 
     @classmethod
-    def of(cls, engine: Engine, state: State, rtol: float, mirrored: bool) -> ReturnMap:
-        """Return map that begins at a state."""
+    def of(
+        cls,
+        engine: Engine,
+        state: State,
+        rtol: float,
+        mirrored: bool,
+        most_steps: int = STEPS_PER_CALL,
+    ) -> ReturnMap:
+        """Return map that begins at a state; a return may take so many steps."""
         settings = Settings(
             duration=math.inf,
             rtol=rtol,
             peaks=0,
-            motored_pressure=needs_motored_pressure(engine),
+            motored_pressure=engine.needs_motored_pressure,
         )
         E = state.engine[0]
         options = options_record(settings, math.inf)
         options["events"] = 0
+        options["max_steps"] = most_steps
         options["longest"] = LONGEST * E["length_scale"] / E["speed_scale"]
         strokes = np.zeros(4, layout.STROKE_RECORD)
-        snapshot = (
-            np.zeros(2, layout.ENGINE_RECORD),
-            np.zeros((2, 2), layout.CHAMBER_RECORD),
-            np.zeros((2, layout.N_ALL)),
+        tables = Tables(
+            strokes=strokes,
+            events=np.zeros(0, layout.EVENT_RECORD),
+            history=np.zeros(0, layout.HISTORY_RECORD),
+            filled=np.zeros(1, layout.FILLED_RECORD),
         )
-        arguments = (
-            parameters(engine),
-            state.engine,
-            state.chambers,
-            state.y,
-            state.peaks,
-            tuple(tableaus.ADAPTIVE),
-            tableaus.ADAPTIVE_ORDER,
-            options,
-            strokes,
-            np.zeros(0, layout.EVENT_RECORD),
-            np.zeros(0, layout.HISTORY_RECORD),
-            np.zeros(3, np.int64),
-            snapshot,
-            work_space(len(tableaus.ADAPTIVE.b)),
-            nobody(),
+        compiled = compiled_engine(engine)
+        arguments = arguments_of(
+            compiled,
+            state,
+            tableau=tableaus.ADAPTIVE,
+            order=tableaus.ADAPTIVE_ORDER,
+            options=options,
+            tables=tables,
         )
-        kernel = kernel_for(engine)
-        address = kernel.address("run_on", arguments)
-        run = (arguments, address, np.zeros(1, layout.CHAMBER_RECORD))
-        return cls(engine, kernel, state, mirrored, strokes, snapshot, run)
+        mapping = ReturnMapping(
+            integration=arguments,
+            address=compiled.kernel.address("run_on", (arguments,)),
+            spare_chamber=np.zeros(1, layout.CHAMBER_RECORD),
+            mirrored=mirrored,
+        )
+        return cls(engine, compiled.kernel, state, mirrored, strokes, mapping, _iterates())
+
+    @property
+    def snapshots(self) -> Snapshots:
+        """States at the last two left dead centres."""
+        return self.mapping.integration.snapshots
 
     @property
     def strokes_per_map(self) -> float:
         """Strokes from one return to the next."""
-        return 1.0 if self.mirrored else 2.0
+        return strokes_per_map(self.mirrored)
 
     @property
     def evaluations(self) -> int:
         """Right-hand sides evaluated so far."""
         return int(self.state.engine["evaluations"][0])
 
-    def find(self, most: int, tolerance: float) -> tuple[int, np.ndarray]:
-        """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit).
-
-        Returns
-        -------
-        code : int
-            Why it ended, as a code of the layout.
-        found : ndarray
-            Maps taken, residual of the last one, residual of the whole cycle after it.
-        """
-        vectors = self._vectors()
-        return self._do(FIND, vectors, most, tolerance)
+    def find(self, max_maps: int, tolerance: float) -> Search:
+        """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit)."""
+        self.iterates = _iterates()
+        return self._do(FIND, self.iterates, max_maps, tolerance)
 
     def _do(
-        self, task: int, vectors: tuple[np.ndarray, ...], most: int = 0, tolerance: float = 0.0
-    ) -> tuple[int, np.ndarray]:
-        """Call the compiled entry point; returns its code and what it found."""
-        found = np.zeros(3)
+        self, task: int, iterates: Iterates, max_maps: int = 0, tolerance: float = 0.0
+    ) -> Search:
+        """Call the compiled entry point."""
+        found = np.zeros(1, layout.SEARCH_RECORD)
         code = self.kernel.call(
-            "do_orbit",
-            task,
-            self.run,
-            self.strokes_per_map,
-            self.mirrored,
-            most,
-            tolerance,
-            vectors,
-            np.zeros(2, np.int64),
-            found,
+            "do_orbit", task, self.mapping, max_maps, tolerance, iterates, found
         )
-        return int(code), found
+        return Search(int(code), *found[0].tolist())
 
-    def cycle(self, start: State, z: np.ndarray) -> tuple[int, float]:
-        """One whole cycle from a vector, recorded; the code of its end and how far it misses."""
+    def jump(self, change: np.ndarray) -> None:
+        """Move the present state by a change of its vector, if that is long by a part of it."""
+        z = self.vector(self.state)
+        room = (FARTHEST * np.maximum(np.abs(z), 1.0) / np.maximum(np.abs(change), 1e-300)).min()
+        read_vector(*self.state.records, self.state.y, z + min(room, 1.0) * change)
+
+    def begin_on_the_left(self) -> None:
+        """Take the cycle just recorded from its left dead centre, if it began on the right."""
+        if self.state.engine["direction"][0] > 0.0:
+            return
+        spare = self.mapping.spare_chamber.view(np.recarray)
+        self.mapping, asked = self.mapping._replace(mirrored=True), self.mapping
+        self._do(IMAGE, _iterates(self.vector(self.state)))
+        mirror(*self.state.records, self.state.y, spare)  # half a cycle on, seen without the mirror
+        self.mapping = asked
+        self._do(CYCLE, _iterates(self.vector(self.state)))
+
+    def cycle(self, start: State, z: np.ndarray) -> Search:
+        """One whole cycle from a vector, recorded."""
         self.reset(start)
-        vectors = self._vectors()
-        vectors[0][:] = z
-        code, found = self._do(CYCLE, vectors)
-        return code, float(found[2])
-
-    def _vectors(self) -> tuple[np.ndarray, ...]:
-        """Room for points, residuals and images."""
-        n = layout.N_VECTOR
-        old = np.zeros((2, DEPTH, n))
-        return np.zeros(n), np.zeros(n), np.zeros(n), old[0], old[1], np.zeros((DEPTH, DEPTH + 2))
+        return self._do(CYCLE, _iterates(z))
 
     def reset(self, state: State) -> None:
         """Go to a copy of a state."""
@@ -203,12 +241,12 @@ class ReturnMap:
             If there is none.
         """
         self.reset(start)
-        vectors = self._vectors()
-        vectors[0][:] = z
-        code, _ = self._do(IMAGE, vectors)
+        iterates = _iterates(z)
+        code = self._do(IMAGE, iterates).code
         if code != layout.END_OF_TIME:
             raise NoReturn(code)
-        return vectors[2]
+        image: np.ndarray = iterates.image
+        return image
 
     def vector(self, state: State) -> np.ndarray:
         """A state as a vector."""
@@ -235,6 +273,20 @@ class ReturnMap:
         return matrix
 
 
+def _iterates(point: np.ndarray | None = None) -> Iterates:
+    """Room for points, residuals and images; begins at a point."""
+    n = layout.N_VECTOR
+    return Iterates(
+        point=np.zeros(n) if point is None else point.copy(),
+        residual=np.zeros(n),
+        image=np.zeros(n),
+        points=np.zeros((DEPTH, n)),
+        residuals=np.zeros((DEPTH, n)),
+        gram=np.zeros((DEPTH, DEPTH + 2)),
+        modes=np.zeros(2, np.int64),
+    )
+
+
 def constant_entries(engine: Engine) -> set[int]:
     """Entries of the vector that nothing can change: a current that is not, a sealed charge."""
     kept = set()
@@ -245,17 +297,33 @@ def constant_entries(engine: Engine) -> set[int]:
         if isinstance(chamber, BounceChamber):
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
             kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED}
-        if not needs_motored_pressure(engine):
+        if not engine.needs_motored_pressure:
             kept.add(first + Z_LN_MOTORED)
     return kept
 
 
-def adiabatic_chambers(engine: Engine) -> int:
-    """Number of sealed chambers without heat transfer: each keeps its entropy for ever."""
-    return sum(
-        isinstance(chamber, BounceChamber) and isinstance(chamber.heat_transfer, NoHeatTransfer)
-        for chamber in engine.chambers
-    )
+def conserved_entries(engine: Engine) -> set[int]:
+    """Entries of the vector that hold the entropy of sealed chambers without heat transfer."""
+    return sealed_entries(engine, [is_adiabatic(chamber) for chamber in engine.chambers])
+
+
+def sealed_entries(engine: Engine, wanted: Sequence[bool] = (True, True)) -> set[int]:
+    """Entries of the vector for the pressures in those chambers that never open."""
+    entries = [Z_LN_PRESSURE] + [Z_LN_MOTORED] * engine.needs_motored_pressure
+    return {
+        Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
+        for side, chamber in enumerate(engine.chambers)
+        if wanted[side] and isinstance(chamber, BounceChamber)
+        for n in entries
+    }
+
+
+def is_adiabatic(chamber: Chamber) -> bool:
+    """Whether a chamber is sealed and without heat transfer, so that it keeps its entropy."""
+    if not isinstance(chamber, BounceChamber):
+        return False
+    law = chamber.heat_transfer
+    return isinstance(law, NoHeatTransfer) or law.coefficient(PROBE_GAS, PROBE_CHARGE) == 0.0
 
 
 def repeats_itself(engine: Engine) -> bool:
@@ -269,9 +337,30 @@ def repeats_itself(engine: Engine) -> bool:
 
 @lru_cache(maxsize=256)
 def _asks_for_time(law: Any) -> bool:
-    """Whether a method of a law, or a function it uses, takes an attribute ``t`` of anything."""
-    codes = [part for part in fingerprint(law) if isinstance(part, CodeType)]
-    return any("t" in code.co_names for code in codes)
+    """Whether a method of a law may look at the time in the motion it is shown.
+
+    It does not if all it takes from the motion is fields by name, and none of them the time.
+    Whoever unpacks the motion, takes a field by number or hands the motion on may well look.
+    """
+    return any(
+        not isinstance(method, FunctionType) or _looks_at_time(method.__code__)
+        for method in (getattr(law, name) for name in law.compiled if name not in SHOWN_NO_MOTION)
+    )
+
+
+def _looks_at_time(code: CodeType) -> bool:
+    """Whether code does anything with its last argument but take fields other than the time."""
+    motion = code.co_varnames[code.co_argcount - 1]
+    steps = [step for step in dis.get_instructions(code) if step.opname not in ("CACHE", "NOP")]
+    for step, following in itertools.zip_longest(steps, steps[1:]):
+        names = step.argval if isinstance(step.argval, tuple) else (step.argval,)
+        if motion not in names or step.opname == "LOAD_CONST":
+            continue
+        taken = following.argval if following is not None and following.opname == TAKE else None
+        loaded_last = "LOAD_FAST" in step.opname and names[-1] == motion
+        if not loaded_last or motion in names[:-1] or taken not in TIMELESS:
+            return True
+    return False
 
 
 def is_symmetric(engine: Engine) -> bool:

@@ -6,6 +6,7 @@ from one dead centre to the next alike: half a cycle later, in the mirror, for a
 
 from __future__ import annotations
 
+import enum
 import itertools
 import math
 from collections.abc import Iterator
@@ -14,23 +15,27 @@ from functools import cached_property
 
 import numpy as np
 
-from saleg.compiler.compose import check_laws, needs_motored_pressure
-from saleg.engine import Engine, check_engine, warn_of_unusual
-from saleg.engine.start import CompressedCharge, Start
+from saleg.engine import Chamber, CombustionChamber, Engine, check_engine, warn_of_unusual
+from saleg.engine.start import CompressedCharge, Start, standard_charge
+from saleg.errors import SalegError
 from saleg.kernel import layout
+from saleg.kernel.tuples import Snapshots
 from saleg.quantities import as_float, is_whole
-from saleg.simulation.initial_state import prepare
+from saleg.simulation.initial_state import natural_period, prepare
 from saleg.simulation.integration import (
+    STEPS_PER_CALL,
     Replay,
     Settings,
     SettingsError,
     integrate,
     settings_of,
 )
+from saleg.simulation.outcome import is_dead, is_idling
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
 from saleg.status import Status
-from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
+from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
+from saleg.steady.slow_states import find_settled
 from saleg.steady.stability import Stability, stability
 
 DEFAULT_TOLERANCE = 1e-6
@@ -46,8 +51,30 @@ MIRROR_MISSED = 10.0
 #: Factor on the tolerance with which an engine that seems unsteady is tried once more.
 FINER = 1e-2
 FINEST = 1e-9
-#: Time simulated where no fixed point was found [s].
-FALLBACK_DURATION = 4.0
+#: Natural periods simulated where no fixed point was found; 4 s for the base case.
+FALLBACK_PERIODS = 108.0
+#: What a quick search may take: maps from one start, and steps to one return.
+QUICK_MAPS = 40
+QUICK_STEPS = 1000
+
+
+class Effort(enum.Enum):
+    """How much work a search for a steady state may be.
+
+    Attributes
+    ----------
+    QUICK
+        The standard starts, and no more: a few milliseconds, found or not.
+    THOROUGH
+        All ways to a fixed point; where none leads to one the engine is simulated.
+    """
+
+    QUICK = "quick"
+    THOROUGH = "thorough"
+
+
+class NoSteadyState(SalegError, ValueError):
+    """There is no steady state, and so nothing of what was asked about it."""
 
 
 @dataclass(eq=False)
@@ -69,7 +96,8 @@ class SteadyState:
         How far the verifying cycle misses its start, in the numbers of order one a state is
         written in [-]; NaN without a fixed point.
     method : str
-        "fixed point", "continuation" (a point of a branch) or "simulation".
+        "fixed point", "continuation" (a point of a branch), "simulation", or "none" where a quick
+        search has found nothing.
     strokes : ndarray of STROKE_RECORD
         The two strokes of the cycle, read-only; empty without one.
     """
@@ -131,10 +159,26 @@ class SteadyState:
 
     @cached_property
     def stability(self) -> Stability:
-        """Multipliers of the cycle and what they mean, differentiated when first asked for."""
+        """Multipliers of the cycle and what they mean, differentiated when first asked for.
+
+        Raises
+        ------
+        NoSteadyState
+            If there is no cycle to differentiate.
+        """
         if self.replay is None:
-            raise ValueError(f"no steady state to differentiate: {self.message}")
+            raise NoSteadyState(f"no steady state to differentiate: {self.message}")
+        if not self.has_multipliers:
+            raise NoSteadyState(f"no return map to differentiate: {self.message}")
         return stability(self.replay, float(self.strokes["duration"].sum()))
+
+    @property
+    def has_multipliers(self) -> bool:
+        """Whether there is a steady state and a return map to differentiate there.
+
+        An engine with a law of time may repeat its cycles but has no such map.
+        """
+        return self.replay is not None and repeats_itself(self.engine)
 
     @property
     def multipliers(self) -> np.ndarray:
@@ -143,8 +187,8 @@ class SteadyState:
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances of the cycle die away; False without a steady state."""
-        return self.found and self.stability.stable
+        """Whether small disturbances of the cycle die away; False where that is not known."""
+        return self.found and self.has_multipliers and self.stability.stable
 
     def __str__(self) -> str:
         from saleg.simulation.report import describe_performance, describe_remarks
@@ -158,7 +202,11 @@ class SteadyState:
 
 
 def steady_state(
-    engine: Engine, *, rtol: float = DEFAULT_TOLERANCE, most: int = MOST_MAPS
+    engine: Engine,
+    *,
+    rtol: float = DEFAULT_TOLERANCE,
+    most: int = MOST_MAPS,
+    effort: Effort = Effort.THOROUGH,
 ) -> SteadyState:
     """Steady state of an engine: the fixed point of its return map.
 
@@ -174,6 +222,8 @@ def steady_state(
         Tolerance of the integrator, and of the state after a return.
     most : int
         Maps to try before the other methods take over.
+    effort : Effort
+        ``Effort.QUICK`` ends with "not found" where the standard starts lead to no orbit.
 
     Returns
     -------
@@ -197,21 +247,28 @@ def steady_state(
     rtol = check_tolerance(rtol)
     if not is_whole(most, 0, 2**31 - 1):
         raise SettingsError(f"most = {most!r}: must be a whole number >= 0")
+    check_effort(effort)
     check_engine(engine)
     warn_of_unusual(engine)
-    return found_steady_state(engine, rtol, int(most))
+    return found_steady_state(engine, rtol, int(most), effort)
 
 
-def found_steady_state(engine: Engine, rtol: float, most: int = MOST_MAPS) -> SteadyState:
+def found_steady_state(
+    engine: Engine, rtol: float, most: int = MOST_MAPS, effort: Effort = Effort.THOROUGH
+) -> SteadyState:
     """Steady state of an engine, without a warning of unusual numbers."""
     check_engine(engine)
-    check_laws(engine)
+    engine.check_laws()
+    quick = effort is Effort.QUICK
     if not repeats_itself(engine):
-        return waited_for(engine, rtol, 0, 0, "a law depends on time or counts charges")
-    found = _solved(engine, rtol, most)
+        why = "a law depends on time or counts charges"
+        return not_found(engine, 0, 0, why) if quick else waited_for(engine, rtol, 0, 0, why)
+    if quick:
+        return _solved(engine, rtol, min(most, QUICK_MAPS), quick)
+    found = _solved(engine, rtol, most, quick)
     if found.status is Status.UNSTEADY and rtol > FINEST:
         # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
-        again = _solved(engine, max(FINER * rtol, FINEST), most)
+        again = _solved(engine, max(FINER * rtol, FINEST), most, quick)
         return replace(
             again,
             half_cycles=again.half_cycles + found.half_cycles,
@@ -233,46 +290,75 @@ def check_tolerance(rtol: float) -> float:
     return number
 
 
-def _solved(engine: Engine, rtol: float, most: int) -> SteadyState:
-    """Fixed point by iteration, from one start after the other; else simulation."""
+def check_effort(effort: Effort) -> None:
+    """Refuse what is no effort.
+
+    Raises
+    ------
+    SettingsError
+    """
+    if not isinstance(effort, Effort):
+        names = " or ".join(f"saleg.Effort.{item.name}" for item in Effort)
+        raise SettingsError(f"effort = {effort!r}: must be {names}")
+
+
+def _solved(engine: Engine, rtol: float, most: int, quick: bool) -> SteadyState:
+    """Fixed point by iteration, from one start after the other; else simulation, unless quick."""
     symmetric = is_symmetric(engine)
     spent = evaluations = 0
-    for start, mirrored in itertools.product(starts(engine), (True, False)):
-        if mirrored and not symmetric:
-            continue
+    ways = (False,) if not symmetric else (True,) if quick else (True, False)
+    for start, mirrored in itertools.product(starts(engine), ways):
         state = prepare(replace(engine, start=start))
-        chart = ReturnMap.of(engine, state, rtol, mirrored)
-        code, found = chart.find(most, RESIDUAL * rtol)
-        spent += int(found[0] * chart.strokes_per_map) + (2 if code == layout.END_OF_TIME else 0)
+        most_steps = QUICK_STEPS if quick else STEPS_PER_CALL
+        chart = ReturnMap.of(engine, state, rtol, mirrored, most_steps)
+        found, strokes = find_settled(chart, most, RESIDUAL * rtol, not quick)
+        cycled = found.code == layout.END_OF_TIME
+        spent += strokes
         evaluations += chart.evaluations
-        if mirrored and code == layout.END_OF_TIME and found[2] > MIRROR_MISSED * rtol:
+        if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
             continue  # unstable, or not as symmetric as it looks
-        if converged(code, found, rtol):
-            return result_of(chart, spent, evaluations, float(found[2]), "fixed point", rtol)
+        if converged(found, rtol):
+            return result_of(chart, spent, evaluations, found.missed, "fixed point", rtol)
+    if quick:
+        return not_found(engine, spent, evaluations, "no orbit from the standard starts")
     return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
 
 
 def starts(engine: Engine) -> Iterator[Start]:
-    """Where to look from: near the target stroke, deeper and less deep, and the engine's own."""
+    """Where to look from: near the target stroke, deeper and less deep, and the engine's own.
+
+    They begin on the side with more fuel, whichever that is.
+    """
+    left_first = engine.is_mirrored or fuel_energy(engine.left) >= fuel_energy(engine.right)
+    side = -1.0 if left_first else 1.0
     depth = float(getattr(engine.alternator, "target_stroke", 0.9))
-    yield CompressedCharge(position=-min(max(depth, 0.5), 0.95), burning=1.0)
-    if engine.start != CompressedCharge():
+    yield CompressedCharge(position=side * min(max(depth, 0.5), 0.95), burning=1.0)
+    usual = CompressedCharge()
+    if engine.start not in (usual, replace(usual, position=-usual.position)):
         yield engine.start
-    yield CompressedCharge(position=-0.75, burning=1.0)
+    yield CompressedCharge(position=side * 0.75, burning=1.0)
 
 
-def converged(code: int, found: np.ndarray, tolerance: float) -> bool:
+def fuel_energy(chamber: Chamber) -> float:
+    """Lower heating value of the fuel in a charge [J]; 0 for a chamber without fuel."""
+    if not isinstance(chamber, CombustionChamber):
+        return 0.0
+    return standard_charge(chamber)[1] * float(chamber.fuel.lower_heating_value)
+
+
+def converged(found: Search, tolerance: float) -> bool:
     """Whether a fixed point was found and a whole cycle from it comes back to it."""
-    return code == layout.END_OF_TIME and found[2] <= MOST_MISSED * tolerance
+    return found.code == layout.END_OF_TIME and found.missed <= MOST_MISSED * tolerance
 
 
 def result_of(
     chart: ReturnMap, spent: int, evaluations: int, residual: float, method: str, rtol: float
 ) -> SteadyState:
     """What a converged map has found."""
+    chart.begin_on_the_left()
     engine, strokes = chart.engine, chart.strokes[:2].copy()
-    snapshot = tuple(part.copy() for part in chart.snapshot)
-    settings = Settings(duration=0.0, rtol=rtol, motored_pressure=needs_motored_pressure(engine))
+    snapshots = Snapshots(*(part.copy() for part in chart.snapshots))
+    settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
     status, what = _kind(engine, strokes)
     symmetry = "half-cycle map, mirrored" if chart.mirrored else "full-cycle map"
     message = (
@@ -288,23 +374,37 @@ def result_of(
         residual=residual,
         method=method,
         strokes=strokes,
-        replay=Replay(engine, snapshot, settings),
+        replay=Replay(engine, snapshots, settings),
     )
 
 
 def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers."""
-    heat = float(strokes["heat_released"].sum())
-    if engine.fires and not heat > 0.0:
+    if is_dead(engine, strokes):
         return Status.STALLED, "does not fire, it only swings:"
-    if engine.fires and not float(strokes["electrical_energy"].sum()) > 1e-9 * heat:
+    if is_idling(engine, strokes):
         return Status.IDLING, "fires but delivers no power:"
     return Status.STEADY, "it is"
 
 
+def not_found(engine: Engine, spent: int, evaluations: int, why: str) -> SteadyState:
+    """What a quick search has to say where it has found nothing."""
+    return SteadyState(
+        engine=engine,
+        status=Status.NOT_FOUND,
+        message=f"{why}; Effort.THOROUGH tries other ways and simulates",
+        half_cycles=spent,
+        evaluations=evaluations,
+        residual=math.nan,
+        method="none",
+        strokes=np.zeros(0, layout.STROKE_RECORD),
+    )
+
+
 def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
-    run = integrate(engine, prepare(engine), settings_of(FALLBACK_DURATION, rtol=rtol))
+    duration = FALLBACK_PERIODS * natural_period(engine)
+    run = integrate(engine, prepare(engine), settings_of(duration, rtol=rtol))
     steady = run.status in (Status.STEADY, Status.IDLING)
     strokes = run.orbit.strokes if steady and run.orbit is not None else None
     unsettled = run.status is Status.COMPLETED

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from saleg.simulation.initial_state import State
 from saleg.simulation.integration import Replay
 from saleg.simulation.run import read_only
-from saleg.steady.return_map import ReturnMap, adiabatic_chambers, is_symmetric
+from saleg.steady.return_map import ReturnMap, is_symmetric, sealed_entries
 
 #: Tolerance of the integrator for differences of the map, which magnify its error.
 FINE = 1e-11
+#: Distance from one of a multiplier of what is conserved, above the noise of the differences.
+CONSERVED = 1e-5
 #: Multipliers of the map below this are noise.
 LEAST = 1e-6
 #: Angle of a multiplier from the real axis below which it counts as real [rad].
@@ -85,13 +86,14 @@ def describe(found: Stability) -> str:
 
 def map_multipliers(replay: Replay, mirrored: bool) -> np.ndarray:
     """Multipliers of the return map itself, the largest first [-]."""
-    E, C, y = (part[1] for part in replay.snapshot)
-    start = State(E.reshape(1).copy(), C.copy(), y.copy(), np.zeros(0))
+    start = replay.start
     chart = ReturnMap.of(replay.engine, start.copy(), FINE, mirrored)
     values = np.linalg.eigvals(chart.jacobian(start, chart.vector(start)))
-    # What a sealed adiabatic chamber keeps for ever is no instability: a multiplier of one each.
-    for _ in range(adiabatic_chambers(replay.engine)):
-        values = np.delete(values, np.argmin(np.abs(np.abs(values) - 1.0)))
+    # The entropy that a sealed chamber keeps for ever is no instability: a multiplier of one each.
+    for _ in sealed_entries(replay.engine):
+        nearest = np.argmin(np.abs(values - 1.0))
+        if abs(values[nearest] - 1.0) < CONSERVED:
+            values = np.delete(values, nearest)
     values = values[np.abs(values) > LEAST]
     return values[np.argsort(-np.abs(values))]
 

@@ -8,7 +8,6 @@ from saleg.studies.convergence import (
     UNITS,
     WARM_UP,
     StudyError,
-    beside_thesis,
     delay_study,
     delayed,
     solver_study,
@@ -17,6 +16,7 @@ from saleg.studies.convergence import (
     tolerance_study,
     work_precision,
 )
+from saleg.studies.printed import beside_thesis
 
 __all__ = [
     "DELAYED",

@@ -15,13 +15,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.compose import kernel_for, parameters
-from saleg.compiler.controllers import nobody
+from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine, check_engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.tableaus import FIXED_STEP
-from saleg.machines import CATALOGUE
 from saleg.quantities import is_number
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import Settings, SettingsError, options_record, simulate
@@ -180,57 +178,6 @@ def work_precision(
     return _described(table, engine)
 
 
-def is_of_base_case(study: pd.DataFrame) -> bool:
-    """Whether a study is of the engine of Tables 2 to 4, unmodified."""
-    return study.attrs.get("engine") == CATALOGUE["thesis-base"]().to_toml()
-
-
-def beside_thesis(
-    table: pd.DataFrame, printed: Mapping[float, Mapping[str, float]], key: str
-) -> pd.DataFrame:
-    """Set a study of the base case beside the rows a table of the thesis prints.
-
-    Parameters
-    ----------
-    table : DataFrame
-        A study of the thesis' base case, unmodified.
-    printed : mapping
-        Rows of the thesis by the value of `key`, for instance ``thesis_tables.TABLE_2``.
-    key : str
-        Column that tells the rows apart: "step", "order" or "stop_time".
-
-    Returns
-    -------
-    DataFrame
-        The study with a column ``thesis_...`` for every figure printed; NaN where the thesis
-        prints none, as for its unstable run.
-
-    Raises
-    ------
-    StudyError
-        If the study is of another engine, or has no column `key`.
-    """
-    if not is_of_base_case(table):
-        raise StudyError(
-            "the thesis prints these rows for its base case only, and this study is of another "
-            "engine, or is a table whose .attrs were lost"
-        )
-    if key not in table:
-        raise StudyError(f"no column {key!r} in the study; there are {', '.join(map(str, table))}")
-    result = table.copy()
-    rows = [_row_at(printed, value) for value in table[key]]
-    for name in dict.fromkeys(name for row in printed.values() for name in row):
-        result[f"thesis_{name}"] = [row.get(name, math.nan) for row in rows]
-        result.attrs["units"][f"thesis_{name}"] = UNITS[name]
-    return result
-
-
-def _row_at(printed: Mapping[float, Mapping[str, float]], value: float) -> Mapping[str, float]:
-    """The row printed for a value, however the value was computed; empty if there is none."""
-    found = (row for key, row in printed.items() if math.isclose(key, value, rel_tol=1e-9))
-    return next(found, {})
-
-
 def stop_time_study(
     engine: Engine,
     times: Iterable[float] = TABLE_4_TIMES,
@@ -344,12 +291,12 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
     if delay < 0 or delay != int(delay):
         raise SettingsError(f"delay = {delay!r}: must be a number of whole steps")
     check_engine(engine)
-    kernel, state = kernel_for(engine, DELAYED), prepare(engine)
+    (kernel, P, control), state = compiled_engine(engine, modules=DELAYED), prepare(engine)
     records = Records(False, None)
     options = options_record(Settings(duration, adaptive=False, step=step), duration)
     forces = np.full(int(delay) + 1, _gas_force(state))
     work = tuple(np.zeros(layout.N_ALL) for _ in range(3))
-    P, code = parameters(engine), layout.BUFFER_FULL
+    tables, code = records.tables, layout.BUFFER_FULL
     while code == layout.BUFFER_FULL:
         code = kernel.call(
             "run_delayed",
@@ -361,11 +308,9 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
             int(delay),
             forces,
             options,
-            records.strokes,
-            records.events,
-            records.filled,
+            tables,
             work,
-            nobody(),
+            control,
         )
         records.make_room()
     strokes = records.kept_strokes.joined()

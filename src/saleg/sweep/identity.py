@@ -1,7 +1,7 @@
-"""What a sweep is of, as plain data: values of objects, and a hash of code that is not saleg's.
+"""Identity of a sweep: values of objects, and a hash of the text of code that is not saleg's.
 
-Two sweeps with the same description have the same results, so that a folder can go on with one
-in another process. The code of saleg itself is told by its version.
+Two sweeps of the same identity have the same results, so that a folder can go on with one in
+another process, and under another version of saleg.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.sweep.points import SweepError
+from saleg.errors import SweepError
 
 #: Methods a dataclass writes by itself, told by its fields.
 WRITTEN = ("__init__", "__repr__", "__eq__", "__hash__", "__setattr__", "__delattr__")
@@ -66,9 +66,7 @@ def own_code(node: Any, path: str = "") -> dict[str, str]:
 
 def code_hash(code: type | types.FunctionType, name: str) -> str:
     """Hash of a class or function and of all they use that is no installed package's."""
-    seen: dict[int, Any] = {}
-    lines = sorted(set(_lines(code, name, seen)))
-    return hashlib.sha256("\n".join(lines).encode()).hexdigest()
+    return hashlib.sha256("\n".join(sorted(set(_texts(code, name, {})))).encode()).hexdigest()
 
 
 def _object(model: Any, name: str) -> dict[str, Any]:
@@ -113,54 +111,40 @@ def _unknown(name: str, value: Any) -> SweepError:
     )
 
 
-def _lines(code: Any, name: str, seen: dict[int, Any]) -> Iterator[str]:
-    """Texts of a class or function and of all they use, in any order."""
-    code = getattr(code, "py_func", code)
-    if id(code) in seen:
-        return
-    seen[id(code)] = code
-    if not _is_own(code):
-        yield f"{code.__module__}.{code.__qualname__}"
-    elif isinstance(code, type):
-        for base in code.__mro__[1:]:
-            yield from _lines(base, name, seen)
-        for key, value in vars(code).items():
-            if not key.startswith("__") or callable(value):
-                yield from _member(code, key, value, name, seen)
-    else:
-        yield _text(code)
-        for used, value in _used(code):
-            yield from _part(value, f"'{used}' in {name}", seen)
-
-
-def _member(kind: type, key: str, value: Any, name: str, seen: dict[int, Any]) -> Iterator[str]:
-    """Texts of a member of a class."""
-    if dataclasses.is_dataclass(kind) and key in WRITTEN and _written(value):
-        return
-    value = getattr(value, "fget", None) or getattr(value, "func", None) or value
-    value = getattr(value, "__func__", value)
-    if isinstance(value, (types.MemberDescriptorType, types.GetSetDescriptorType)):
-        return
-    yield from _part(value, f"{name}.{key}", seen)
-
-
-def _written(value: Any) -> bool:
-    """Whether a method was written by a dataclass."""
-    return (
-        value is None
-        or getattr(value, "__code__", None) is None
-        or (value.__code__.co_filename == "<string>")
-    )
-
-
-def _part(value: Any, name: str, seen: dict[int, Any]) -> Iterator[str]:
-    """Texts of what code uses: more code, or a value."""
+def _texts(value: Any, name: str, seen: dict[int, Any]) -> Iterator[str]:
+    """Texts of code and of all it uses, in any order; of what is no code, its value."""
     value = getattr(value, "py_func", value)
-    if isinstance(value, (type, types.FunctionType)):
-        yield from _lines(value, name, seen)
-    elif id(value) not in seen:
-        seen[id(value)] = value
+    if id(value) in seen:
+        return
+    seen[id(value)] = value
+    if not isinstance(value, (type, types.FunctionType)):
         yield f"{name} = {_value(value, name)}"
+    elif not _is_own(value):
+        yield f"{value.__module__}.{value.__qualname__}"
+    elif isinstance(value, type):
+        for base in value.__mro__[1:]:
+            yield from _texts(base, name, seen)
+        for key, member in _members(value):
+            yield from _texts(member, f"{name}.{key}", seen)
+    else:
+        yield _text(value)
+        for used, part in _used(value):
+            yield from _texts(part, f"'{used}' in {name}", seen)
+
+
+def _members(kind: type) -> Iterator[tuple[str, Any]]:
+    """Methods, properties and values of a class itself, but for what a dataclass writes."""
+    for key, value in vars(kind).items():
+        code = getattr(value, "__code__", None)
+        is_written = code is None or code.co_filename == "<string>"
+        if key.startswith("__") and not callable(value):
+            continue
+        if dataclasses.is_dataclass(kind) and key in WRITTEN and is_written:
+            continue
+        value = getattr(value, "fget", None) or getattr(value, "func", None) or value
+        value = getattr(value, "__func__", value)
+        if not isinstance(value, (types.MemberDescriptorType, types.GetSetDescriptorType)):
+            yield key, value
 
 
 def _used(function: types.FunctionType) -> Iterator[tuple[str, Any]]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.errors import SalegError
+from saleg.errors import SweepError
 from saleg.quantities import is_number, is_whole
 
 if TYPE_CHECKING:
@@ -21,10 +21,6 @@ Ranges = Mapping[str, Sequence[float]]
 
 #: Points of a set at most; more would fill the memory before any work is done.
 MOST_POINTS = 10_000_000
-
-
-class SweepError(SalegError, ValueError):
-    """A sweep that makes no sense, or does not belong to its folder."""
 
 
 def grid(values: Mapping[str, Sequence[float]]) -> pd.DataFrame:

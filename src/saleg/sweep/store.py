@@ -6,14 +6,11 @@ is done is a file in ``parts``. At the end all of it is ``results.csv``, and the
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import io
 import json
 import math
-import os
 import shutil
-import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,10 +18,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.batch.many import Columns, kind_of
-from saleg.compiler.cache import locked
-from saleg.engine.text_files import is_folder, named
-from saleg.sweep.points import SweepError
+from saleg.batch.table import Columns, kind_of
+from saleg.errors import SweepError
+from saleg.files.atomic import write_text
+from saleg.files.lock import locked
+from saleg.files.reading import is_folder, named
+from saleg.files.tables import DamagedTable, labelled, read_table, write_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,6 +35,8 @@ DESCRIPTION, POINTS, RESULTS, PARTS, LOCK = (
     "parts",
     ".lock",
 )
+#: What a description without a format number was written in.
+FIRST_FORMAT = 1
 
 
 class Folder:
@@ -51,8 +52,18 @@ class Folder:
         self.path = path
 
     @contextmanager
-    def opened(self, description: Mapping[str, Any], points: pd.DataFrame) -> Iterator[None]:
+    def opened(
+        self, identity: Mapping[str, Any], points: pd.DataFrame, begun_by: str
+    ) -> Iterator[None]:
         """Make the folder this sweep's, and keep other processes out meanwhile.
+
+        Parameters
+        ----------
+        identity : mapping
+            All that decides about the results, as plain data.
+        points : DataFrame
+        begun_by : str
+            Version that begins the sweep; written for the reader, any other may go on with it.
 
         Raises
         ------
@@ -60,13 +71,13 @@ class Folder:
             If it is that of another sweep, or no folder of a sweep at all.
         """
         with _writing(self.path):
-            if self.path.is_dir() and not (self.path / DESCRIPTION).exists():
+            if self.path.is_dir():
                 self._refuse_strangers(table_text(points))
             self.path.mkdir(parents=True, exist_ok=True)
             with open(self.path / LOCK, "ab"):
                 pass
         with locked(self.path / LOCK):
-            self._claim(json.loads(json.dumps(description)), points)
+            self._claim(json.loads(json.dumps(identity)), points, begun_by)
             yield
 
     def _refuse_strangers(self, points: str) -> None:
@@ -75,20 +86,20 @@ class Folder:
             ours = entry.name == LOCK or entry.name.startswith((f".{DESCRIPTION}", f".{POINTS}"))
             if entry.name == POINTS:
                 ours = _read(entry) == points
-            if not ours:
+            if not ours and not (self.path / DESCRIPTION).exists():
                 raise SweepError(
                     f"{self.path} is no folder of a sweep: it holds {entry.name}; name another "
                     "folder"
                 )
 
-    def _claim(self, description: dict[str, Any], points: pd.DataFrame) -> None:
+    def _claim(self, identity: dict[str, Any], points: pd.DataFrame, begun_by: str) -> None:
         path = self.path / DESCRIPTION
         if not path.exists():
             _write(self.path / POINTS, table_text(points))
-            _write(path, json.dumps(description, indent=1) + "\n")
+            _write(path, json.dumps({"version": begun_by, **identity}, indent=1) + "\n")
             return
-        known = read_description(self.path)
-        differing = [key for key in description if known.get(key) != description[key]]
+        known = {"format": FIRST_FORMAT, **read_description(self.path)}
+        differing = [key for key in identity if known.get(key) != identity[key]]
         if _read(self.path / POINTS) != table_text(points):
             differing.append("points")
         if differing:
@@ -102,10 +113,6 @@ class Folder:
         """Whether all is done."""
         return (self.path / RESULTS).exists()
 
-    def done(self, counts: Mapping[int, int]) -> set[int]:
-        """Which pieces are done, of some with their numbers of points; a damaged one is not."""
-        return {number for number, count in counts.items() if self._whole(number, count)}
-
     def keep(self, number: int, columns: Columns) -> None:
         """Write a piece that is done."""
         plain = {name: _plain(values) for name, values in columns.items()}
@@ -114,19 +121,22 @@ class Folder:
             path.parent.mkdir(exist_ok=True)
         _write(path, json.dumps({"sha256": _digest(plain), "columns": plain}) + "\n")
 
-    def piece(self, number: int) -> Columns:
-        """Read a piece."""
-        held = json.loads(_read(self._part(number)))["columns"]
-        return {name: _restored(name, values) for name, values in held.items()}
+    def parts(self, total: int, chunk: int) -> dict[int, Columns]:
+        """Pieces that are done, of all with so many points in chunks; a damaged one is not."""
+        starts = enumerate(range(0, total, chunk))
+        found = {number: self._piece(number, min(chunk, total - at)) for number, at in starts}
+        return {number: columns for number, columns in found.items() if columns is not None}
 
-    def _whole(self, number: int, count: int) -> bool:
-        """Whether a piece is there as it was written, with as many points."""
+    def _piece(self, number: int, count: int) -> Columns | None:
+        """A piece with so many points as it was written; None if it is not whole."""
         try:
-            held = json.loads(_read(self._part(number)))
-            columns = held["columns"]
-            return held["sha256"] == _digest(columns) and len(columns["status"]) == count
-        except (OSError, ValueError, TypeError, KeyError, RecursionError):
-            return False
+            known = json.loads(_read(self._part(number)))
+            columns = known["columns"]
+            if known["sha256"] == _digest(columns) and len(columns["status"]) == count:
+                return {name: np.array(columns[name], dtype=kind_of(name)) for name in columns}
+        except (ValueError, TypeError, KeyError, RecursionError):  # SweepErrors among them
+            pass
+        return None
 
     def finish(self, table: pd.DataFrame) -> None:
         """Write the whole table; the parts are no longer needed."""
@@ -149,7 +159,7 @@ class Folder:
         inputs, path = known.get("inputs"), self.path / RESULTS
         if not isinstance(inputs, dict) or not isinstance(known.get("count"), int):
             raise SweepError(f"{self.path / DESCRIPTION} is damaged: it lacks inputs or count")
-        table = read_table(path)
+        table = read_frame(path)
         names = [str(name) for name in table]
         results = {"status"} if known["count"] else set()
         if names[: len(inputs)] != list(inputs) or not results <= set(names):
@@ -179,16 +189,8 @@ def _writing(path: Path) -> Iterator[None]:
 
 
 def _write(path: Path, text: str) -> None:
-    """Write a text file so that it is there whole or not at all, readable as any other file."""
-    temporary = path.with_name(f".{path.name}-{uuid.uuid4().hex}")
     with _writing(path):
-        try:
-            with open(temporary, "x", encoding="utf-8", newline="\n") as file:
-                file.write(text)
-            os.replace(temporary, path)
-        except BaseException:
-            temporary.unlink(missing_ok=True)
-            raise
+        write_text(path, text)
 
 
 def _read(path: Path) -> str:
@@ -213,7 +215,7 @@ def read_description(folder: Path) -> dict[str, Any]:
     return held
 
 
-def read_table(path: Path) -> pd.DataFrame:
+def read_frame(path: Path) -> pd.DataFrame:
     """A table as :func:`table_text` writes it, exactly, with its units in ``.attrs``.
 
     Raises
@@ -223,55 +225,39 @@ def read_table(path: Path) -> pd.DataFrame:
     """
     import pandas as pd
 
-    text = _read(path)
-    if not text.endswith("\n"):
-        raise _damaged(path, "its last line is cut")
-    labels, *rows = csv.reader(io.StringIO(text, newline=""))
-    split = [label.rpartition(" [") for label in labels]
-    names = [name for name, _, _ in split]
-    if not all(names) or any(len(row) != len(names) for row in rows):
-        raise _damaged(path, "a line has another number of values, or a column no name and unit")
-    columns = zip(*rows, strict=True) if rows else [()] * len(names)
-    data: dict[str, np.ndarray] = {}
-    for name, texts in zip(names, columns, strict=True):
-        try:
-            data[name] = np.array([_value(name, text) for text in texts], dtype=kind_of(name))
-        except ValueError:
-            raise _damaged(path, f"a value of {name} is no number") from None
+    is_folder(path, SweepError)  # refuses what would be waited for without end
+    try:
+        with named(path, SweepError):
+            rows = read_table(path, lambda label: kind_of(_split(label)[0]) is not float)
+    except DamagedTable as error:
+        raise _damaged(path, str(error)) from None
+    units = dict(map(_split, rows.dtype.names or ()))
+    if not all(units):
+        raise _damaged(path, "a column has no name and unit")
+    data = {}
+    for field, name in zip(rows.dtype.names or (), units, strict=True):
+        data[name] = rows[field] == "True" if kind_of(name) is bool else rows[field]
     frame = pd.DataFrame(data)
-    units = [unit.rstrip("]") for _, _, unit in split]
-    frame.attrs["units"] = dict(zip(names, units, strict=True))
+    frame.attrs["units"] = units
     return frame
 
 
 def table_text(table: pd.DataFrame) -> str:
     """A table as CSV, units in its header, every number exactly."""
     file = io.StringIO()
-    writer = csv.writer(file, lineterminator="\n")
-    units = table.attrs["units"]
-    writer.writerow([f"{name} [{units[name]}]" for name in table])
-    columns = [table[name].tolist() for name in table]
-    writer.writerows(zip(*columns, strict=True))
+    write_table(file, labelled(table))
     return file.getvalue()
 
 
-def _value(name: str, text: str) -> Any:
-    if kind_of(name) is bool:
-        return text == "True"
-    return float(text) if kind_of(name) is float else text
+def _split(label: str) -> tuple[str, str]:
+    """Name and unit of a column; no name if there is no unit."""
+    name, _, unit = label.rpartition(" [")
+    return name, unit.rstrip("]")
 
 
-def _plain(values: list[Any]) -> list[Any]:
+def _plain(values: np.ndarray) -> list[Any]:
     """Values as JSON knows them: what is no finite number becomes text."""
     return [
-        repr(float(value)) if isinstance(value, float) and not math.isfinite(value) else value
-        for value in map(_native, values)
+        repr(value) if isinstance(value, float) and not math.isfinite(value) else value
+        for value in values.tolist()
     ]
-
-
-def _native(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value
-
-
-def _restored(name: str, values: list[Any]) -> list[Any]:
-    return [float(value) for value in values] if kind_of(name) is float else values

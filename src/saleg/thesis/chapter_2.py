@@ -6,10 +6,10 @@ and show what the text says of each figure. Every figure is a case, which comput
 
 Examples
 --------
->>> from saleg.fundamental import figures
->>> print(figures.excess().outcome)
+>>> from saleg.thesis import chapter_2
+>>> print(chapter_2.excess().outcome)
 rising
->>> ax = figures.figure_9()
+>>> ax = chapter_2.figure_9()
 >>> ax.figure.savefig("figure_9.png")  # doctest: +SKIP
 """
 
@@ -20,15 +20,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.fundamental.balance import at_equilibrium
-from saleg.fundamental.energy import cycle_balance
-from saleg.fundamental.gas import Gas, Isentropic, Polytropic
-from saleg.fundamental.history import History, march
-from saleg.fundamental.ignition import AtPressure
-from saleg.fundamental.loads import ConstantLoad, CosineLoad, Load, OttoLoad, Profile
-from saleg.fundamental.system import System
+from saleg.fundamental import (
+    AtPressure,
+    ConstantLoad,
+    CosineLoad,
+    Gas,
+    History,
+    Isentropic,
+    Load,
+    OttoLoad,
+    Polytropic,
+    Profile,
+    System,
+    at_equilibrium,
+    cycle_balance,
+    march,
+)
 from saleg.plotting import fundamental as plots
-from saleg.plotting.style import new_figure
+from saleg.plotting import new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

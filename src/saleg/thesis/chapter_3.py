@@ -1,14 +1,30 @@
-"""Chapter 3: the base case, and how it answers to numerical settings and heat release."""
+"""Chapter 3: the base case, and how it answers to numerical settings and to its models.
+
+Studies of the models (Figures 43 to 59) are in the loop of the component design, which section
+3.6.1 has active. Table 6 and Figures 60 and 61, spark-ignited prototypes, have no machines here.
+
+Examples
+--------
+>>> from saleg.thesis import chapter_3
+>>> figure = chapter_3.FIGURES[49]
+>>> ax = figure.draw(figure.run())  # doctest: +SKIP
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from saleg import studies
+from saleg import Run, plotting, simulate, studies
+from saleg.design import Design
 from saleg.machines import thesis_base
+from saleg.plotting import sensitivity as curves
 from saleg.plotting import studies as figures
-from saleg.simulation import Run, simulate
-from saleg.thesis.tables import TABLE_2, TABLE_3, TABLE_4, TABLE_5, comparison
+from saleg.studies import sensitivity
+from saleg.studies.sensitivity import Study
+from saleg.thesis.beside import comparison
+from saleg.thesis.tables import TABLE_2, TABLE_3, TABLE_4, TABLE_5
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -45,14 +61,134 @@ def delays(steps: tuple[float, ...] = (1e-6, 5e-6, 1e-5)) -> pd.DataFrame:
     return studies.delay_study(thesis_base(), steps, [0, 1, 2])
 
 
-def draw(late: pd.DataFrame, ax: Axes | None = None) -> Axes:
+def draw_delays(late: pd.DataFrame, ax: Axes | None = None) -> Axes:
     """Draw a study of :func:`delays` with the rows of Table 2 as rings."""
     return figures.delay(late, ax, printed=TABLE_2)
 
 
+# The models, in the loop
+
+
+def heat_transfer_parameters() -> pd.DataFrame:
+    """Parameters of Hohenberg's correlation (Figure 43)."""
+    return sensitivity.hohenberg_parameters(Design())
+
+
+def heat_transfer_laws() -> Study:
+    """Four heat-transfer laws that take the same heat, at fixed load (Figures 44, 45)."""
+    return sensitivity.heat_transfer_laws(sensitivity.fix_load(Design()))
+
+
+def ignition_coefficient() -> Study:
+    """Leading coefficient A of the CFR correlation (Figure 46)."""
+    return _multiplied("ignition.A", (0.01, 0.1, 1.0, 10.0, 100.0))
+
+
+def ignition_temperature() -> Study:
+    """Temperature coefficient b of the CFR correlation (Figures 47, 48)."""
+    return _multiplied("ignition.b", (0.45, 0.5, 0.6, 0.8, 1.0, 1.2))
+
+
+def equivalence_ratios() -> Study:
+    """Equivalence ratios under the CFR correlation (Figure 49)."""
+    return sensitivity.equivalence_ratios(Design())
+
+
+def ignition_parameters() -> pd.DataFrame:
+    """Parameters of the CFR correlation (Figure 50)."""
+    return sensitivity.cfr_parameters(Design())
+
+
+def ignition_laws() -> Study:
+    """CFR and RCM correlations (Figure 51)."""
+    return sensitivity.ignition_laws(Design())
+
+
+def retained_gas() -> Study:
+    """Rates of retained exhaust gas under the RCM correlation (Figure 52)."""
+    return sensitivity.retained_gas(Design())
+
+
+def release_durations() -> Study:
+    """Durations of the heat release (Figures 53 to 55)."""
+    return sensitivity.release_durations(Design())
+
+
+def release_profiles() -> Study:
+    """Profiles of the heat release (Figures 56, 57, Table 5)."""
+    return sensitivity.release_profiles(Design())
+
+
 def heat_release() -> pd.DataFrame:
-    """Heat-release profiles of Table 5: deviation of every figure from the print [-]."""
-    table = studies.sensitivity.release_profiles(thesis_base()).table.set_index("value")
+    """Profiles of the heat release: deviation of every figure from Table 5 [-]."""
+    table = release_profiles().table.set_index("value")
     names = list(next(iter(TABLE_5.values())))
     printed = type(table).from_dict(TABLE_5, orient="index")[names]
     return table.loc[printed.index, names] / printed - 1.0
+
+
+def regulator_gains() -> pd.DataFrame:
+    """Gains of the stroke regulator (Figure 58)."""
+    return sensitivity.regulator_gains(Design())
+
+
+def target_strokes() -> Study:
+    """Target strokes of the stroke regulator (Figure 59)."""
+    return sensitivity.target_strokes(Design())
+
+
+def _multiplied(path: str, factors: tuple[float, ...]) -> Study:
+    """A number of the base case times several factors."""
+    design = Design()
+    return sensitivity.study(design, path, [factor * design.get(path) for factor in factors])
+
+
+def _draw_durations(study: Study, ax: Any = None) -> Any:
+    return curves.trends(study.table, ax=ax, logarithmic=True)
+
+
+class Figure(NamedTuple):
+    """Figure of the chapter.
+
+    Attributes
+    ----------
+    run : callable
+        Gives what is drawn.
+    draw : callable
+        Draws it, on axes handed in or on new ones.
+    """
+
+    run: Callable[[], Any]
+    draw: Callable[..., Any]
+
+
+#: Figures by their number.
+FIGURES = {
+    36: Figure(base_case, plotting.velocity_position),
+    37: Figure(base_case, plotting.acceleration_velocity),
+    38: Figure(base_case, plotting.pressure_position),
+    39: Figure(base_case, plotting.pressure_time),
+    40: Figure(base_case, plotting.power),
+    41: Figure(base_case, plotting.energy_pie),
+    42: Figure(base_case, plotting.approach_to_steady_state),
+    43: Figure(
+        heat_transfer_parameters,
+        partial(curves.trends, figures=("frequency", "heat_transfer_share")),
+    ),
+    44: Figure(heat_transfer_laws, curves.heat_flow_time),
+    45: Figure(heat_transfer_laws, curves.velocity_position),
+    46: Figure(ignition_coefficient, curves.pressure_volume),
+    47: Figure(ignition_temperature, curves.velocity_position),
+    48: Figure(ignition_temperature, curves.pressure_volume),
+    49: Figure(equivalence_ratios, curves.pressure_volume),
+    50: Figure(ignition_parameters, curves.trends),
+    51: Figure(ignition_laws, curves.pressure_volume),
+    52: Figure(retained_gas, curves.pressure_volume),
+    53: Figure(release_durations, curves.velocity_position),
+    54: Figure(release_durations, curves.pressure_volume),
+    55: Figure(release_durations, _draw_durations),
+    56: Figure(release_profiles, curves.release_rates),
+    57: Figure(release_profiles, curves.pressure_volume),
+    58: Figure(regulator_gains, curves.regulator_gains),
+    59: Figure(target_strokes, curves.velocity_position),
+}

@@ -1,25 +1,42 @@
-"""Chapter 4: the optimised designs of Tables 9 to 12, from their eight inputs through the loop.
+"""Chapter 4: sweeps of the base case, and the optimised designs of Tables 9 to 12.
+
+Designs are computed from their eight inputs alone, through the loop of the component design.
 
 Examples
 --------
 >>> from saleg.thesis import chapter_4
 >>> beside = chapter_4.deviations(12)
->>> float(beside["stroke"].abs().max().round(2))
-0.01
+>>> float(beside["stroke"].abs().max().round(3))
+0.005
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from saleg import sweep
+from saleg.design import Design, evaluate_many
+from saleg.plotting import sweeps
 from saleg.thesis.tables import columns
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-    from saleg.design import Design
-
+#: Ranges of the sweeps of Figures 67 to 82, two figures each, by input (SI). The text prints that
+#: of the retained exhaust gas; the others hold the borders of stability it names.
+SWEEPS = {
+    "bore": (0.025, 0.1),
+    "half_stroke": (0.04, 0.3),
+    "port_location": (0.03, 0.6),
+    "intake_pressure": (0.8e5, 2.5e5),
+    "intake_temperature": (280.0, 480.0),
+    "spring_stiffness": (5e3, 300e3),
+    "equivalence_ratio": (0.15, 1.0),
+    "egr": (0.0, 0.5),
+}
 #: Tables of designs.
 TABLES = (9, 10, 11, 12)
 #: Inputs of a design (Table 8), and what Tables 9 to 12 call them.
@@ -42,7 +59,32 @@ FIGURES = {
     "efficiency": "efficiency",
     "power": "power",
     "peak_pressure": "peak_pressure",
+    "displacement": "displacement",
+    "stroke_to_bore": "maximum_stroke_to_bore",
 }
+
+
+def sweep_along(name: str, count: int = 61) -> pd.DataFrame:
+    """Base case along one of its eight inputs (Figures 67 to 82).
+
+    Parameters
+    ----------
+    name : str
+        A key of :data:`SWEEPS`.
+    count : int
+        Number of points.
+
+    Returns
+    -------
+    DataFrame
+        As :func:`saleg.sweep.run` gives it.
+    """
+    return sweep.run(sweep.grid({name: np.linspace(*SWEEPS[name], count).tolist()}))
+
+
+def draw_sweep(table: pd.DataFrame, name: str, ax: Any = None) -> np.ndarray:
+    """Draw a table of :func:`sweep_along`, on eight axes handed in or on new ones."""
+    return sweeps.panels(table, name, ax)
 
 
 def printed(number: int) -> pd.DataFrame:
@@ -62,6 +104,22 @@ def printed(number: int) -> pd.DataFrame:
     return pd.DataFrame.from_dict(columns(number), orient="index")
 
 
+def inputs(number: int) -> pd.DataFrame:
+    """Inputs of the designs of a table.
+
+    Parameters
+    ----------
+    number : int
+        9, 10, 11 or 12.
+
+    Returns
+    -------
+    DataFrame
+        One row per design, the eight inputs of :func:`saleg.design.evaluate` in SI.
+    """
+    return printed(number)[list(INPUTS.values())].set_axis(list(INPUTS), axis=1)
+
+
 def run(number: int = 9, design: Design | None = None) -> pd.DataFrame:
     """Designs of a table from their eight inputs alone.
 
@@ -77,11 +135,8 @@ def run(number: int = 9, design: Design | None = None) -> pd.DataFrame:
     DataFrame
         As :func:`saleg.design.evaluate_many` gives it, one row per column of the table.
     """
-    from saleg.design import evaluate_many
-
-    given = printed(number)
-    inputs = given[list(INPUTS.values())].set_axis(list(INPUTS), axis=1)
-    return evaluate_many(inputs, design, multipliers=True).set_axis(given.index)
+    given = inputs(number)
+    return evaluate_many(given, design, multipliers=True).set_axis(given.index)
 
 
 def deviations(number: int = 9, design: Design | None = None) -> pd.DataFrame:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from saleg import Run
+
 if TYPE_CHECKING:
     import pandas as pd
-
-    from saleg.simulation.run import Run
 
 
 class Line(NamedTuple):
@@ -21,42 +22,6 @@ class Line(NamedTuple):
     what: str
     here: str
     dissertation: str = ""
-
-
-@dataclass
-class Result:
-    """Result of an experiment.
-
-    Attributes
-    ----------
-    run : Run, optional
-        If it was a single run.
-    table : DataFrame, optional
-        If it was many.
-    also : dict
-        What else its drawing and report go by.
-    """
-
-    run: Run | None = None
-    table: pd.DataFrame | None = None
-    also: dict[str, Any] = field(default_factory=dict)
-
-    @property
-    def moved(self) -> bool:
-        """Whether there is anything to draw and report; not after a run without a full cycle."""
-        return self.run is None or len(self.run.cycles) > 0
-
-    @property
-    def one(self) -> Run:
-        """The run of an experiment that is one."""
-        assert self.run is not None
-        return self.run
-
-    @property
-    def many(self) -> pd.DataFrame:
-        """The table of an experiment that is many."""
-        assert self.table is not None
-        return self.table
 
 
 @dataclass(frozen=True)
@@ -68,23 +33,37 @@ class Experiment:
     summary : str
         One line on what it does.
     run : callable
-        Does it with an engine and the options below as keywords.
+        Does it with an engine and options as keywords. The result is a run or a table, or holds
+        one as its ``run`` or ``table``.
     draw : dict of str to callable
-        Figures by file name, each drawn from a result.
+        Figures by file name, each drawn from the result.
     report : callable
-        Lines on a result.
-    options : tuple of str
-        Keywords it takes.
+        Lines on the result.
     is_run : bool
         Whether it is a single run.
     """
 
     summary: str
-    run: Callable[..., Result]
-    draw: dict[str, Callable[[Result], Any]]
-    report: Callable[[Result], list[Line]]
-    options: tuple[str, ...] = ("duration",)
+    run: Callable[..., Any]
+    draw: dict[str, Callable[[Any], Any]]
+    report: Callable[[Any], list[Line]]
     is_run: bool = True
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """Keywords it takes."""
+        return tuple(inspect.signature(self.run).parameters)[1:]
+
+
+def run_of(result: Any) -> Run | None:
+    """Run of a result that is a single one."""
+    found = result if isinstance(result, Run) else getattr(result, "run", None)
+    return found if isinstance(found, Run) else None
+
+
+def table_of(result: Any) -> pd.DataFrame | None:
+    """Table of a result that is of many runs."""
+    return getattr(result, "table", result) if run_of(result) is None else None
 
 
 def seconds(value: float) -> str:

@@ -1,4 +1,4 @@
-"""Printed tables of the dissertation, and a run beside them.
+"""Printed tables of the dissertation.
 
 M. C. Robinson, Analysis and Optimization of a Dual Free Piston, Spring Assisted, Linear Engine
 Generator, dissertation, West Virginia University. The numbers stand as printed in ``data/``, one
@@ -9,16 +9,10 @@ from __future__ import annotations
 
 import csv
 from importlib.resources import files
-from typing import TYPE_CHECKING, NamedTuple
-
-from saleg.machines import CATALOGUE
-from saleg.simulation.report import FIGURES
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import pandas as pd
-
-    from saleg.engine import Engine
-    from saleg.simulation.run import Run
 
 #: Files of the tables by number.
 FILES = {
@@ -36,19 +30,29 @@ FILES = {
 }
 #: Factors from printed units to SI; degC has an offset instead.
 TO_SI = {
-    "mm": 1e-3,
-    "bar": 1e5,
-    "kW": 1e3,
-    "kW/kg": 1e3,
+    "-": 1.0,
     "%": 1e-2,
     "pct": 1e-2,
+    "mm": 1e-3,
+    "cc": 1e-6,
+    "m/s": 1.0,
+    "km/s^2": 1e3,
+    "s": 1.0,
+    "ms": 1e-3,
+    "Hz": 1.0,
+    "g": 1e-3,
+    "kg": 1.0,
+    "N": 1.0,
     "kN": 1e3,
     "kN/m": 1e3,
+    "N/mm": 1e3,
+    "bar": 1e5,
+    "J": 1.0,
     "kJ": 1e3,
-    "g": 1e-3,
-    "ms": 1e-3,
-    "km/s^2": 1e3,
     "MJ/kg": 1e6,
+    "kW": 1e3,
+    "kW/kg": 1e3,
+    "K": 1.0,
     "MB": 1e6,
 }
 #: Columns that say what stands in a row; all others hold numbers.
@@ -137,7 +141,7 @@ def _numbers(row: dict[str, str], key: str) -> dict[str, float]:
     found = {}
     for heading, printed in row.items():
         name, _, unit = heading.rpartition("_")
-        if unit not in TO_SI and unit not in ("s", "Hz"):
+        if unit not in TO_SI:
             name, unit = heading, "-"
         if heading != key and heading not in WORDS:
             found[name] = _si(printed, unit)
@@ -168,7 +172,7 @@ def _si(printed: str, unit: str) -> float:
     value = float(printed)
     if unit == "degC":
         return value + 273.15
-    return float(f"{value * TO_SI.get(unit, 1.0):.12g}")
+    return float(f"{value * TO_SI[unit]:.12g}")
 
 
 def _study(number: int, key: str) -> dict[float, dict[str, float]]:
@@ -187,94 +191,3 @@ TABLE_2 = _study(2, "step_s")
 TABLE_3 = _study(3, "order")
 TABLE_4 = _study(4, "stop_time_s")
 TABLE_5 = settings(5, "profile")
-
-
-class Column(NamedTuple):
-    """One published set of results.
-
-    Attributes
-    ----------
-    title : str
-        Where it is printed.
-    figures : dict of str to float
-        Figures of :class:`saleg.Performance` by name, in SI.
-    """
-
-    title: str
-    figures: dict[str, float]
-
-
-def _results(number: int) -> dict[str, float]:
-    """Results of Table 1 or 13 under the names of :class:`saleg.Performance`."""
-    printed = columns(number)["value"]
-    printed["charge_mass"] = printed.pop("mixture_mass")
-    names = [name for name, *_ in FIGURES if name != "moving_mass"]
-    return {name: printed[name] for name in names if name in printed}
-
-
-TABLE_1 = Column("Table 1 (5 us)", _results(1))
-TABLE_13 = Column("Table 13 (5 us)", _results(13))
-#: Table 2 at a step of 0.5 us; compression ratio and frequency from the base row of Table 5.
-FINEST = Column(
-    "finest (T. 2, 5)",
-    {name: value for name, value in TABLE_2[5e-7].items() if name != "cost"}
-    | {name: TABLE_5["single Wiebe (base)"][name] for name in ("compression_ratio", "frequency")},
-)
-COLUMNS = {"thesis-base": (TABLE_1, FINEST), "thesis-transient": (TABLE_13,)}
-
-REMARKS = {
-    "thesis-base": """\
-Why they differ: the thesis takes steps of 5 us, and its results still move with the step (first
-order: 0.25 points of efficiency per us, Table 2). saleg ends its steps exactly on the events, so
-the column to compare with is the finest one: Table 2 at 0.5 us, compression ratio and frequency
-from Table 5. Power and fuel energy come out 2-3 % higher because the fuel energy of Table 1,
-1.38 kJ, lies 2.2 % below what the charge it describes holds; efficiency is free of that.""",
-    "thesis-transient": """\
-Why they differ: the fuel energy of Table 13, 222 J, lies 2.5 % below what the charge it describes
-holds, and power and alternator force are higher in step with it; efficiency is free of that. The
-thesis' steps of 5 us add a first-order error (Table 2 shows it for the base case).""",
-}
-
-
-def comparison(run: Run) -> str | None:
-    """Performance of a run beside what the thesis prints.
-
-    Parameters
-    ----------
-    run : Run
-
-    Returns
-    -------
-    str or None
-        An aligned table of the figures printed there, with deviations in percent, and an
-        explanation; None unless the engine is one of the thesis', unmodified, and completed a
-        cycle.
-    """
-    name = run.engine.name
-    if not is_published(run.engine) or run.last_cycle_strokes is None:
-        return None
-    beside = COLUMNS[name]
-    head = f"  {'':<24} {'saleg':>10} {'':<6}"
-    head += "".join(f" {column.title:>16} {'':>8}" for column in beside)
-    lines = [head.rstrip()]
-    for figure, label, factor, unit, digits in FIGURES:
-        if not any(figure in column.figures for column in beside):
-            continue
-        value = getattr(run.performance, figure) * factor
-        text = f"  {label:<24} {value:>10.{digits}f} {'' if unit == '-' else unit:<6}"
-        text += "".join(_beside(column, figure, value, factor) for column in beside)
-        lines.append(text.rstrip())
-    return "\n".join([*lines, "", REMARKS[name]])
-
-
-def is_published(engine: Engine) -> bool:
-    """Whether an engine is one of the thesis', with nothing changed."""
-    return engine.name in COLUMNS and engine == CATALOGUE[engine.name]()
-
-
-def _beside(column: Column, figure: str, value: float, factor: float) -> str:
-    """A figure as printed and how far the value, in the readable unit, is from it."""
-    if figure not in column.figures:
-        return f" {'':>16} {'':>8}"
-    printed = column.figures[figure] * factor
-    return f" {printed:>16g} {100.0 * (value / printed - 1.0):>+6.1f} %"

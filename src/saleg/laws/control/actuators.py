@@ -9,6 +9,19 @@ from saleg.laws.arguments import Commands
 from saleg.laws.control.base import ActuatorLaw
 from saleg.quantities import quantity
 
+#: Number of each command, from 1 on, as :meth:`Actuators.refused` gives it.
+(
+    MOTORING,
+    LOAD_WEIGHT,
+    AMPLITUDE,
+    FREQUENCY,
+    SWEEP,
+    SETS_PHASE,
+    PHASE,
+    EQUIVALENCE_RATIO,
+    INTAKE_TEMPERATURE,
+) = (1.0 + place for place in range(len(Commands._fields)))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Actuators(ActuatorLaw):
@@ -50,23 +63,23 @@ class Actuators(ActuatorLaw):
     def refused(self, wanted: Commands) -> float:
         """Number of the first command out of its limits or not finite, from 1 on; 0 if none is."""
         if not (wanted.motoring == 0.0 or wanted.motoring == 1.0):
-            return 1.0
+            return MOTORING
         if not 0.0 <= wanted.load_weight <= self.most_load:
-            return 2.0
+            return LOAD_WEIGHT
         if not 0.0 <= wanted.amplitude <= self.most_force:
-            return 3.0
+            return AMPLITUDE
         if not 0.0 <= wanted.frequency <= self.most_frequency:
-            return 4.0
+            return FREQUENCY
         if not abs(wanted.sweep) <= self.most_sweep:
-            return 5.0
+            return SWEEP
         if not (wanted.sets_phase == 0.0 or wanted.sets_phase == 1.0):
-            return 6.0
+            return SETS_PHASE
         if not math.isfinite(wanted.phase):
-            return 7.0
+            return PHASE
         if not 0.0 <= wanted.equivalence_ratio <= self.most_fuel:
-            return 8.0
+            return EQUIVALENCE_RATIO
         if not self.coldest <= wanted.intake_temperature <= self.hottest:
-            return 9.0
+            return INTAKE_TEMPERATURE
         return 0.0
 
     def follow(self, actual: Commands, wanted: Commands, elapsed: float) -> Commands:

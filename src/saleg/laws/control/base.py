@@ -1,27 +1,28 @@
 """Parts of a controller as laws: compiled by themselves, asked by the kernel at dead centres.
 
-A controller has five parts and stands behind actuators. Each part may keep :data:`HELD` numbers in
-`held` from one dead centre to the next; they begin at zero.
+A controller has five parts and stands behind actuators. Each part may keep :data:`MEMORY` numbers
+in `memory` from one dead centre to the next; they begin at zero.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 from saleg.laws.arguments import Commands, Drive, Signals
 from saleg.laws.base import Law
 
 #: Numbers a part may keep.
-HELD = 4
+MEMORY = 4
 
 
 class StateLogic(Law):
     """Whether the alternator is a motor or draws power."""
 
     slot = "state_logic"
-    compiled = ("motors",)
+    compiled = ("is_motor",)
+    earlier_names: ClassVar[dict[str, str]] = {"motors": "is_motor"}
 
-    def motors(self, held: Any, signals: Signals) -> float:
+    def is_motor(self, memory: Any, signals: Signals) -> float:
         """1 for a motor, 0 for a generator, until the next dead centre."""
         raise NotImplementedError
 
@@ -32,7 +33,7 @@ class MotorControl(Law):
     slot = "motor_control"
     compiled = ("drive",)
 
-    def drive(self, held: Any, signals: Signals) -> Drive:
+    def drive(self, memory: Any, signals: Signals) -> Drive:
         """Force until the next dead centre; asked, and without effect, where it does not motor."""
         raise NotImplementedError
 
@@ -43,7 +44,7 @@ class LoadControl(Law):
     slot = "load_control"
     compiled = ("weight",)
 
-    def weight(self, held: Any, signals: Signals) -> float:
+    def weight(self, memory: Any, signals: Signals) -> float:
         """Load weight W [-] until the next dead centre."""
         raise NotImplementedError
 
@@ -54,7 +55,7 @@ class FuelControl(Law):
     slot = "fuel_control"
     compiled = ("equivalence_ratio",)
 
-    def equivalence_ratio(self, held: Any, signals: Signals) -> float:
+    def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
         """Equivalence ratio [-] of the charge composed in the coming stroke; 0 for no fuel."""
         raise NotImplementedError
 
@@ -65,13 +66,13 @@ class IntakeControl(Law):
     slot = "intake_control"
     compiled = ("temperature",)
 
-    def temperature(self, held: Any, signals: Signals) -> float:
+    def temperature(self, memory: Any, signals: Signals) -> float:
         """Intake temperature [K] until the next dead centre."""
         raise NotImplementedError
 
 
 class ActuatorLaw(Law):
-    """What stands between a controller and the engine: limits, lags, losses."""
+    """Limits, lags and losses of the actuators between a controller and the engine."""
 
     slot = "actuators"
     compiled = ("refused", "follow", "motor_power")

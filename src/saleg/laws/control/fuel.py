@@ -16,7 +16,7 @@ from saleg.quantities import quantity, series
 class RatedFuel(FuelControl):
     """The engine's own equivalence ratio, and no fuel while the alternator is a motor (5.1)."""
 
-    def equivalence_ratio(self, held: Any, signals: Signals) -> float:
+    def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
         """Equivalence ratio [-]."""
         return 0.0 if signals.motoring > 0.0 else signals.rated_equivalence_ratio
 
@@ -25,7 +25,7 @@ class RatedFuel(FuelControl):
 class NoFuel(FuelControl):
     """No fuel at all."""
 
-    def equivalence_ratio(self, held: Any, signals: Signals) -> float:
+    def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
         """Equivalence ratio [-]: zero."""
         return 0.0
 
@@ -47,13 +47,13 @@ class FuelCut(FuelControl):
     at: float = quantity("s", default=1.5, low=0)
     strokes: float = quantity("-", default=1.0, low=0)
 
-    def equivalence_ratio(self, held: Any, signals: Signals) -> float:
+    def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
         """Equivalence ratio [-]; holds the number of strokes since the cut, and the direction."""
-        begins = signals.direction != held[1]
-        held[1] = signals.direction
+        begins = signals.direction != memory[1]
+        memory[1] = signals.direction
         if begins and signals.t >= self.at:
-            held[0] += 1.0
-        if 0.0 < held[0] <= self.strokes:
+            memory[0] += 1.0
+        if 0.0 < memory[0] <= self.strokes:
             return 0.0
         return 0.0 if signals.motoring > 0.0 else signals.rated_equivalence_ratio
 
@@ -89,16 +89,16 @@ class FuelOnDemand(FuelControl):
     lowest: float = quantity("-", default=0.1, low=0)
     highest: float = quantity("-", default=0.7, low=0)
 
-    def equivalence_ratio(self, held: Any, signals: Signals) -> float:
+    def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
         """Equivalence ratio [-]; holds its distance from the rated one, and the time."""
-        elapsed = signals.t - held[1]
-        held[1] = signals.t
+        elapsed = signals.t - memory[1]
+        memory[1] = signals.t
         if signals.motoring > 0.0:
             return 0.0
         demand = at_time(signals.t, self.times, self.demands)
         target = linear(demand, self.powers, self.compression_ratios)
         rated = signals.rated_equivalence_ratio
         if signals.was_motoring == 0.0:
-            held[0] += self.gain * (target - signals.compression_ratio) * elapsed
-            held[0] = min(max(held[0], self.lowest - rated), self.highest - rated)
-        return rated + held[0]
+            memory[0] += self.gain * (target - signals.compression_ratio) * elapsed
+            memory[0] = min(max(memory[0], self.lowest - rated), self.highest - rated)
+        return rated + memory[0]

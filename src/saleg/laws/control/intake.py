@@ -16,7 +16,7 @@ from saleg.quantities import quantity, series
 class RatedIntake(IntakeControl):
     """The engine's own intake temperature."""
 
-    def temperature(self, held: Any, signals: Signals) -> float:
+    def temperature(self, memory: Any, signals: Signals) -> float:
         """Intake temperature [K]."""
         return signals.rated_intake_temperature
 
@@ -54,14 +54,14 @@ class HeatedIntake(IntakeControl):
     lowest: float = quantity("K", default=263.0, low=100.0)
     highest: float = quantity("K", default=370.0, low=100.0)
 
-    def temperature(self, held: Any, signals: Signals) -> float:
+    def temperature(self, memory: Any, signals: Signals) -> float:
         """Intake temperature [K]; holds its distance from the rated one, and the time."""
-        elapsed = signals.t - held[1]
-        held[1] = signals.t
+        elapsed = signals.t - memory[1]
+        memory[1] = signals.t
         rated = signals.rated_intake_temperature
         if signals.motoring == 0.0 and signals.was_motoring == 0.0:
             demand = at_time(signals.t, self.times, self.demands)
             target = linear(demand, self.powers, self.compression_ratios)
-            held[0] += self.gain * (signals.compression_ratio - target) * elapsed
-            held[0] = min(max(held[0], self.lowest - rated), self.highest - rated)
-        return rated + held[0]
+            memory[0] += self.gain * (signals.compression_ratio - target) * elapsed
+            memory[0] = min(max(memory[0], self.lowest - rated), self.highest - rated)
+        return rated + memory[0]

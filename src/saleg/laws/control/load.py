@@ -15,7 +15,7 @@ from saleg.quantities import quantity, series
 class StrokeRegulator(LoadControl):
     """The alternator's own regulator (Eq. 59) alone; no load while it is a motor."""
 
-    def weight(self, held: Any, signals: Signals) -> float:
+    def weight(self, memory: Any, signals: Signals) -> float:
         """Load weight [-], Eq. 59."""
         return 0.0 if signals.motoring > 0.0 else signals.regulated_weight
 
@@ -35,7 +35,7 @@ class ScaledLoad(LoadControl):
     times: tuple[float, ...] = series("s", default=(2.0, 4.0), never_falling=True)
     factors: tuple[float, ...] = series("-", default=(1.0, 2.0), low=0, length="times")
 
-    def weight(self, held: Any, signals: Signals) -> float:
+    def weight(self, memory: Any, signals: Signals) -> float:
         """Load weight [-]."""
         if signals.motoring > 0.0:
             return 0.0
@@ -76,18 +76,18 @@ class PowerDemand(LoadControl):
     demands: tuple[float, ...] = series("W", default=(3800.0, 1800.0), low=0, length="times")
     maximum_weight: float = quantity("-", default=1.1, low=0)
 
-    def weight(self, held: Any, signals: Signals) -> float:
+    def weight(self, memory: Any, signals: Signals) -> float:
         """Load weight [-]; holds the integral of the error, and its time."""
-        elapsed = signals.t - held[1]
-        held[1] = signals.t
+        elapsed = signals.t - memory[1]
+        memory[1] = signals.t
         if signals.motoring > 0.0:
             return 0.0
         error = (at_time(signals.t, self.times, self.demands) - signals.power) / self.rated_power
         fired = signals.was_motoring == 0.0
-        gathered = held[0] + (error * elapsed if fired else 0.0)
+        gathered = memory[0] + (error * elapsed if fired else 0.0)
         demanded = 1.0 + self.proportional_gain * error + self.integral_gain * gathered
         mean = (1.0 - self.share) * signals.regulated_weight + self.share * demanded
         within = 0.0 <= mean <= self.maximum_weight
         if within or (mean > self.maximum_weight) == (error < 0.0):
-            held[0] = gathered
+            memory[0] = gathered
         return min(max(mean, 0.0), self.maximum_weight)

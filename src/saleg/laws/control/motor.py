@@ -51,19 +51,19 @@ class ResonanceSearch(MotorControl):
     keeps_integral: float = quantity("-", default=0.0, low=0, high=1)
     keeps_phase: float = quantity("-", default=0.0, low=0, high=1)
 
-    def drive(self, held: Any, signals: Signals) -> Drive:
+    def drive(self, memory: Any, signals: Signals) -> Drive:
         """Force until the next dead centre, Eq. 69; holds integral, error and time of the error."""
         returns = signals.motoring > 0.0 and signals.was_motoring == 0.0
         if signals.was_motoring > 0.0:
-            held[0] += held[1] * (signals.t - held[2])
+            memory[0] += memory[1] * (signals.t - memory[2])
         elif returns and self.keeps_integral == 0.0:
-            held[0] = 0.0
+            memory[0] = 0.0
         error = 0.0
         if signals.motoring > 0.0:
             error = (self.target - signals.compression_ratio) / self.target
-        held[1], held[2] = error, signals.t
+        memory[1], memory[2] = error, signals.t
         frequency = self.base_frequency + self.proportional_gain * error
-        frequency = max(frequency + self.integral_gain * held[0], 0.0)
+        frequency = max(frequency + self.integral_gain * memory[0], 0.0)
         sweep = self.integral_gain * error
         if self.literal_phase > 0.0:  # the same angle, written from this dead centre on
             phase = 2.0 * math.pi * frequency * signals.t
@@ -88,6 +88,6 @@ class SteadyMotor(MotorControl):
     amplitude: float = quantity("N", default=66.0, low=0)
     frequency: float = quantity("Hz", default=35.0, low=0, high=1e4)
 
-    def drive(self, held: Any, signals: Signals) -> Drive:
+    def drive(self, memory: Any, signals: Signals) -> Drive:
         """Force until the next dead centre."""
         return Drive(self.amplitude, self.frequency, 0.0, 0.0, 0.0)

@@ -28,15 +28,15 @@ class CompressionThreshold(StateLogic):
     hysteresis: float = quantity("-", default=0.0, low=0)
     latched: float = quantity("-", default=0.0, low=0, high=1)
 
-    def motors(self, held: Any, signals: Signals) -> float:
+    def is_motor(self, memory: Any, signals: Signals) -> float:
         """1 for a motor, 0 for a generator; holds whether it has been fired."""
-        if held[0] > 0.0 and self.latched > 0.0:
+        if memory[0] > 0.0 and self.latched > 0.0:
             return 0.0
-        fired = signals.was_motoring == 0.0 and held[0] > 0.0
+        fired = signals.was_motoring == 0.0 and memory[0] > 0.0
         limit = self.threshold - self.hysteresis if fired else self.threshold
         if signals.compression_ratio < limit:
             return 1.0
-        held[0] = 1.0
+        memory[0] = 1.0
         return 0.0
 
 
@@ -44,7 +44,7 @@ class CompressionThreshold(StateLogic):
 class AlwaysMotored(StateLogic):
     """Always a motor, as in the search for the resonance (Fig. 94, 95)."""
 
-    def motors(self, held: Any, signals: Signals) -> float:
+    def is_motor(self, memory: Any, signals: Signals) -> float:
         """1: a motor."""
         return 1.0
 
@@ -53,6 +53,6 @@ class AlwaysMotored(StateLogic):
 class NeverMotored(StateLogic):
     """Always a generator."""
 
-    def motors(self, held: Any, signals: Signals) -> float:
+    def is_motor(self, memory: Any, signals: Signals) -> float:
         """0: a generator."""
         return 0.0

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from saleg.engine import Engine
 from saleg.laws import ConstantFriction, Friction, ViscousFriction
 from saleg.studies.sensitivity.parameter_study import Study, study
 from saleg.studies.sensitivity.settle import settle
-from saleg.studies.sensitivity.tuning import friction_work, tune
+from saleg.studies.sensitivity.tuning import Subject, friction_work, tune
 
 #: Friction that grows with the speed and friction that does not, each with what scales it.
 LAWS: Mapping[str, tuple[Friction, str]] = {
@@ -18,7 +17,7 @@ LAWS: Mapping[str, tuple[Friction, str]] = {
 
 
 def friction_laws(
-    engine: Engine,
+    engine: Subject,
     laws: Mapping[str, tuple[Friction, str]] = LAWS,
     *,
     work: float | None = None,
@@ -29,7 +28,7 @@ def friction_laws(
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     laws : mapping of str to (Friction, str)
         Laws by name, each with the field that scales it.
     work : float, optional
@@ -49,4 +48,4 @@ def friction_laws(
         name: tune(engine.replace(friction=law), f"friction.{field}", friction_work, wanted)
         for name, (law, field) in laws.items()
     }
-    return study(engine, "friction", {name: one.friction for name, one in scaled.items()})
+    return study(engine, "friction", {name: one.get("friction") for name, one in scaled.items()})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from saleg.design import Design
 from saleg.engine import Engine
 from saleg.laws import DoubleWiebe, HeatRelease
 from saleg.studies.sensitivity.parameter_study import Study, study
@@ -56,12 +57,12 @@ def double_wiebe_early() -> DoubleWiebe:
     )
 
 
-def release_durations(engine: Engine, durations: Iterable[float] = DURATIONS) -> Study:
+def release_durations(engine: Engine | Design, durations: Iterable[float] = DURATIONS) -> Study:
     """Steady runs at several combustion durations, as Figures 53 to 55.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     durations : iterable of float
         Combustion durations [s].
 
@@ -72,12 +73,14 @@ def release_durations(engine: Engine, durations: Iterable[float] = DURATIONS) ->
     return study(engine, "heat_release.combustion_duration", durations)
 
 
-def release_profiles(engine: Engine, profiles: Mapping[str, HeatRelease] | None = None) -> Study:
+def release_profiles(
+    engine: Engine | Design, profiles: Mapping[str, HeatRelease] | None = None
+) -> Study:
     """Steady runs under several courses of the heat release, as Figures 56, 57 and Table 5.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     profiles : mapping of str to HeatRelease, optional
         Laws by name; unless given the engine's own beside :func:`double_wiebe_late` and
         :func:`double_wiebe_early`, under the names of Table 5.

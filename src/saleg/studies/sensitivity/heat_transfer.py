@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from saleg.design import Design
 from saleg.engine import Engine
 from saleg.laws import Annand, Chang, HeatTransfer, Hohenberg, Woschni
 from saleg.studies.sensitivity.parameter_study import Study, study, vary_each
 from saleg.studies.sensitivity.settle import settle
-from saleg.studies.sensitivity.tuning import heat_transfer_share, tune
+from saleg.studies.sensitivity.tuning import Subject, heat_transfer_share, tune
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -28,13 +29,13 @@ LAWS: Mapping[str, tuple[HeatTransfer, str]] = {
 
 
 def hohenberg_parameters(
-    engine: Engine, factors: Iterable[float] = FACTORS, paths: Iterable[str] = HOHENBERG
+    engine: Engine | Design, factors: Iterable[float] = FACTORS, paths: Iterable[str] = HOHENBERG
 ) -> pd.DataFrame:
     """Steady results against the parameters of Hohenberg's correlation, as Figure 43.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
         With :class:`saleg.laws.Hohenberg` for its heat transfer.
     factors : iterable of float
         Values over those of the engine [-].
@@ -50,7 +51,7 @@ def hohenberg_parameters(
 
 
 def heat_transfer_laws(
-    engine: Engine,
+    engine: Subject,
     laws: Mapping[str, tuple[HeatTransfer, str]] = LAWS,
     *,
     share: float | None = None,
@@ -62,7 +63,7 @@ def heat_transfer_laws(
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     laws : mapping of str to (HeatTransfer, str)
         Laws by name, each with the field that scales it.
     share : float, optional

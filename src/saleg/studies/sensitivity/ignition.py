@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from saleg.design import Design
 from saleg.engine import Engine
 from saleg.laws import CFRIgnition, Ignition, RCMIgnitionPascal
 from saleg.studies.sensitivity.parameter_study import Study, study, vary_each
@@ -20,7 +21,7 @@ LAWS: Mapping[str, Ignition] = {"CFR": CFRIgnition(), "RCM, p in Pa": RCMIgnitio
 
 
 def cfr_parameters(
-    engine: Engine, factors: Iterable[float] = FACTORS, paths: Iterable[str] = CFR
+    engine: Engine | Design, factors: Iterable[float] = FACTORS, paths: Iterable[str] = CFR
 ) -> pd.DataFrame:
     """Steady results against the parameters of the CFR correlation, as Figure 50.
 
@@ -28,7 +29,7 @@ def cfr_parameters(
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
         With :class:`saleg.laws.CFRIgnition` for its ignition.
     factors : iterable of float
         Values over those of the engine [-].
@@ -44,13 +45,13 @@ def cfr_parameters(
 
 
 def equivalence_ratios(
-    engine: Engine, ratios: Iterable[float] = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
+    engine: Engine | Design, ratios: Iterable[float] = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 ) -> Study:
     """Steady runs at several equivalence ratios [-], as Figure 49.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     ratios : iterable of float
         Equivalence ratios [-].
 
@@ -61,12 +62,12 @@ def equivalence_ratios(
     return study(engine, "equivalence_ratio", ratios)
 
 
-def ignition_laws(engine: Engine, laws: Mapping[str, Ignition] = LAWS) -> Study:
+def ignition_laws(engine: Engine | Design, laws: Mapping[str, Ignition] = LAWS) -> Study:
     """Steady runs under several ignition laws, as Figure 51.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     laws : mapping of str to Ignition
         Laws by name.
 
@@ -78,7 +79,7 @@ def ignition_laws(engine: Engine, laws: Mapping[str, Ignition] = LAWS) -> Study:
 
 
 def retained_gas(
-    engine: Engine,
+    engine: Engine | Design,
     rates: Iterable[float] = (0.0, 0.1, 0.2, 0.3, 0.4),
     law: Ignition | None = None,
 ) -> Study:
@@ -86,7 +87,7 @@ def retained_gas(
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     rates : iterable of float
         Shares of the gas that are retained, EGR [-].
     law : Ignition, optional

@@ -6,6 +6,7 @@ import itertools
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from saleg.design import Design
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.laws import FluxProfile
@@ -19,12 +20,12 @@ GAINS = (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.5, 9.0, 10.0, 12.0, 13.0, 14.0, 16
 TARGETS = (0.70, 0.75, 0.80, 0.825, 0.85, 0.875, 0.90, 0.925, 0.95)
 
 
-def regulator_gains(engine: Engine, gains: Iterable[float] = GAINS) -> pd.DataFrame:
+def regulator_gains(engine: Engine | Design, gains: Iterable[float] = GAINS) -> pd.DataFrame:
     """Steady results against the gain of the stroke regulator (Eq. 59), as Figure 58.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     gains : iterable of float
         Gains G [-].
 
@@ -36,12 +37,12 @@ def regulator_gains(engine: Engine, gains: Iterable[float] = GAINS) -> pd.DataFr
     return vary(engine, "alternator.regulator_gain", gains)
 
 
-def target_strokes(engine: Engine, targets: Iterable[float] = TARGETS) -> Study:
+def target_strokes(engine: Engine | Design, targets: Iterable[float] = TARGETS) -> Study:
     """Steady runs at several target strokes of the regulator, as Figure 59.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     targets : iterable of float
         Target strokes over the maximum stroke [-].
 
@@ -53,7 +54,7 @@ def target_strokes(engine: Engine, targets: Iterable[float] = TARGETS) -> Study:
 
 
 def flux_ripples(
-    engine: Engine,
+    engine: Engine | Design,
     amplitude: float = 0.1,
     periods: Iterable[float] = (1.0, 1.5, 2.0, 3.0, 5.0),
 ) -> Study:
@@ -64,7 +65,7 @@ def flux_ripples(
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
         With :class:`saleg.laws.LinearLoad` or another alternator of its parameters.
     amplitude : float
         Amplitude of the ripple over the mean flux gradient [-].

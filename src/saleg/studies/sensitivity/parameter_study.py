@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from saleg.design import Design
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import UnknownPath
@@ -15,7 +16,7 @@ from saleg.laws import Law
 from saleg.quantities import is_number
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.run import Run
-from saleg.studies.sensitivity.settle import is_stable, settle
+from saleg.studies.sensitivity.settle import is_stable, settle, without_loop
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -61,8 +62,8 @@ class Study:
 
     Attributes
     ----------
-    engine : Engine
-        The engine without the change.
+    engine : Engine or Design
+        What was studied, without the change.
     quantity : str
         What was changed: the path, or "value".
     unit : str
@@ -71,7 +72,7 @@ class Study:
         One per value.
     """
 
-    engine: Engine
+    engine: Engine | Design
     quantity: str
     unit: str
     cases: tuple[Case, ...]
@@ -87,15 +88,16 @@ class Study:
         return {case.value: case.run for case in self.cases}
 
 
-def study(engine: Engine, change: Change, values: Values) -> Study:
-    """Settle an engine at every value, and keep the runs to be drawn.
+def study(engine: Engine | Design, change: Change, values: Values) -> Study:
+    """Settle an engine or a design at every value, and keep the runs to be drawn.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
+        Mass and friction of an engine stay as they are; those of a design follow in its loop.
     change : str or callable
-        Dotted path of a number or a law; or a function that makes the changes for
-        :meth:`Engine.replace` from a value.
+        Dotted path of a number or a law; or a function that makes the changes for ``replace`` from
+        a value.
     values : iterable or mapping
         The values (SI), or values by name.
 
@@ -119,15 +121,16 @@ def study(engine: Engine, change: Change, values: Values) -> Study:
     return Study(engine, *_named(engine, change), tuple(_cases(engine, change, values)))
 
 
-def vary(engine: Engine, change: Change, values: Values) -> pd.DataFrame:
-    """Steady results of an engine at every value of one of its numbers or laws.
+def vary(engine: Engine | Design, change: Change, values: Values) -> pd.DataFrame:
+    """Steady results of an engine or a design at every value of one of its numbers or laws.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
+        Mass and friction of an engine stay as they are; those of a design follow in its loop.
     change : str or callable
-        Dotted path of a number or a law; or a function that makes the changes for
-        :meth:`Engine.replace` from a value.
+        Dotted path of a number or a law; or a function that makes the changes for ``replace`` from
+        a value.
     values : iterable or mapping
         The values (SI), or values by name.
 
@@ -157,12 +160,14 @@ def vary(engine: Engine, change: Change, values: Values) -> pd.DataFrame:
     return _table(engine, *_named(engine, change), map(_row, _cases(engine, change, values)))
 
 
-def vary_each(engine: Engine, paths: Sequence[str], factors: Iterable[float]) -> pd.DataFrame:
-    """Vary several numbers of an engine, one at a time, by the same factors.
+def vary_each(
+    engine: Engine | Design, paths: Sequence[str], factors: Iterable[float]
+) -> pd.DataFrame:
+    """Vary several numbers of an engine or a design, one at a time, by the same factors.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     paths : sequence of str
         Dotted paths.
     factors : iterable of float
@@ -182,16 +187,18 @@ def vary_each(engine: Engine, paths: Sequence[str], factors: Iterable[float]) ->
     }
     units = {"parameter": "-", "value": "", **UNITS}
     joined = pd.concat(tables, names=["parameter"]).reset_index(level=0).reset_index(drop=True)
-    joined.attrs.update(units=units, engine=engine.to_toml())
+    joined.attrs.update(units=units, engine=without_loop(engine).to_toml())
     return joined
 
 
-def _named(engine: Engine, change: Change) -> tuple[str, str]:
-    """What is changed, and its unit."""
-    return (change, unit_of(engine, change)) if isinstance(change, str) else ("value", "-")
+def _named(engine: Engine | Design, change: Change) -> tuple[str, str]:
+    """Quantity that is changed, and its unit."""
+    if not isinstance(change, str):
+        return "value", "-"
+    return change, engine.unit(change) if isinstance(engine, Design) else unit_of(engine, change)
 
 
-def _cases(engine: Engine, change: Change, values: Values) -> Iterator[Case]:
+def _cases(engine: Engine | Design, change: Change, values: Values) -> Iterator[Case]:
     """Settle one engine after the other."""
     base = _base(engine, change)
     for name, value in _by_name(values):
@@ -210,7 +217,7 @@ def _by_name(values: Values) -> Iterator[tuple[Any, Any]]:
         yield (type(value).__name__ if isinstance(value, Law) else value), value
 
 
-def _base(engine: Engine, change: Change) -> float:
+def _base(engine: Engine | Design, change: Change) -> float:
     """The engine's own value; NaN where there is none, or one for each side."""
     try:
         value = engine.get(change) if isinstance(change, str) else math.nan
@@ -239,10 +246,11 @@ def _row(case: Case) -> dict[str, Any]:
 
 
 def _table(
-    engine: Engine, quantity: str, unit: str, rows: Iterable[Mapping[str, Any]]
+    engine: Engine | Design, quantity: str, unit: str, rows: Iterable[Mapping[str, Any]]
 ) -> pd.DataFrame:
     import pandas as pd
 
     table = pd.DataFrame(list(rows), columns=["value", *UNITS])
-    table.attrs.update(units={"value": unit, **UNITS}, quantity=quantity, engine=engine.to_toml())
+    text = without_loop(engine).to_toml()
+    table.attrs.update(units={"value": unit, **UNITS}, quantity=quantity, engine=text)
     return table

@@ -1,9 +1,12 @@
-"""The one place where a sensitivity study waits for a steady state."""
+"""The one place where a sensitivity study comes to a steady state: of an engine, or of a design."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from saleg.design import Design, InvalidDesign, solve
 from saleg.engine import Engine
 from saleg.errors import InvalidEngine, StartError
 from saleg.kernel import layout
@@ -16,21 +19,28 @@ SETTLING_TIMES = (3.0, 12.0)
 #: A burn rate that jumps lets steps differ from cycle to cycle: looser, their errors hide a steady
 #: state.
 TOLERANCE = 1e-9
+#: The same of the loop of a design, whose mass must agree to it too.
+LOOP_TOLERANCE = 1e-8
 #: Cycles whose records are kept: those the verdict on a run looks at.
 KEPT_CYCLES = 20
 
 
-def settle(engine: Engine) -> Run:
-    """Run an engine until it is steady, or for long enough to say that it will not be.
+def settle(subject: Engine | Design) -> Run:
+    """Steady run of an engine, or of a design with the mass of its components.
+
+    An engine holds its mass and its friction and is simulated from its own start, until it is
+    steady or for long enough to say that it will not be. A design is solved for: the mass of its
+    components, and friction where it follows from the orbit, belong to the orbit that is returned.
 
     Parameters
     ----------
-    engine : Engine
+    subject : Engine or Design
 
     Returns
     -------
     Run
-        Always with a status; ``invalid`` if the engine cannot be run.
+        Always with a status; ``invalid`` if the engine cannot be run, ``unsteady`` with the figures
+        of the orbit if that of a design is unstable.
 
     Examples
     --------
@@ -38,15 +48,44 @@ def settle(engine: Engine) -> Run:
     >>> run = settle(saleg.machines.thesis_base())
     >>> is_stable(run), round(run.performance.compression_ratio, 1)
     (True, 19.7)
+    >>> round(settle(saleg.design.Design()).performance.moving_mass, 2)
+    2.38
     """
     try:
-        for duration in SETTLING_TIMES:
-            run = simulate(engine, duration, rtol=TOLERANCE, keep_cycles=KEPT_CYCLES)
-            if run.status is not Status.COMPLETED:
-                return run
-    except (InvalidEngine, StartError) as error:
-        return _never_ran(engine, error)
+        return _designed(subject) if isinstance(subject, Design) else _simulated(subject)
+    except (InvalidEngine, InvalidDesign, StartError) as error:
+        return _never_ran(without_loop(subject), error)
+
+
+def without_loop(subject: Engine | Design) -> Engine:
+    """The engine itself, or that of a design with the mass of its laws' engine."""
+    if isinstance(subject, Design):
+        return subject.engine(subject.laws.translator.mass)
+    return subject
+
+
+def _simulated(engine: Engine) -> Run:
+    """Run of an engine from its own start."""
+    for duration in SETTLING_TIMES:
+        run = simulate(engine, duration, rtol=TOLERANCE, keep_cycles=KEPT_CYCLES)
+        if run.status is not Status.COMPLETED:
+            break
     return run
+
+
+def _designed(design: Design) -> Run:
+    """Orbit of a design as a run of one cycle; the simulation that found none otherwise."""
+    found = solve(design, rtol=LOOP_TOLERANCE)
+    orbit = found.orbit
+    if orbit is None:
+        assert found.fallback is not None
+        return replace(found.fallback, status=found.status, message=found.message)
+    status, message = found.status, found.message
+    if not found.stable:
+        status = Status.UNSTEADY
+        message = f"no engine stays on this orbit ({found.stability.kind}): {message}"
+    strokes = np.concatenate([found.strokes, found.strokes])  # the cycle before was the same
+    return replace(orbit, status=status, message=message, strokes=strokes, replay=lambda: orbit)
 
 
 def is_stable(run: Run) -> bool:

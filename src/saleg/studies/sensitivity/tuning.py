@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import TypeVar
 
+from saleg.design import Design
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.simulation.run import Run
 from saleg.studies.sensitivity.settle import is_stable, settle
+
+#: An engine or a design: what is given comes back changed.
+Subject = TypeVar("Subject", Engine, Design)
 
 MOST_TRIES = 30
 #: Relative deviation of a tuned figure that is left.
@@ -33,15 +38,15 @@ def _burns(run: Run) -> bool:
     return run.energy is not None and run.energy.fuel > 0.0
 
 
-def tune(engine: Engine, path: str, figure: Callable[[Run], float], wanted: float) -> Engine:
-    """Find the engine whose steady state has a figure as wanted, by one of its numbers.
+def tune(engine: Subject, path: str, figure: Callable[[Run], float], wanted: float) -> Subject:
+    """Find the engine or design whose steady state has a figure as wanted, by one of its numbers.
 
     The number is scaled by what the figure falls short until the two agree to 1e-6; that serves
     figures that grow about in proportion to it, as a heat loss does with the scale of its law.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
     path : str
         Dotted path of the number.
     figure : callable
@@ -51,7 +56,7 @@ def tune(engine: Engine, path: str, figure: Callable[[Run], float], wanted: floa
 
     Returns
     -------
-    Engine
+    Engine or Design
 
     Raises
     ------
@@ -81,20 +86,20 @@ def tune(engine: Engine, path: str, figure: Callable[[Run], float], wanted: floa
     raise TuningError(f"{path} does not bring the figure to {wanted:g}: still {found:g}")
 
 
-def fix_load(engine: Engine) -> Engine:
-    """The engine with its load fixed where the stroke regulator settled.
+def fix_load(engine: Subject) -> Subject:
+    """The engine or design with its load fixed where the stroke regulator settled.
 
     The regulator masks what a change does to the motion: without it, the load constant stays that
     of the steady state.
 
     Parameters
     ----------
-    engine : Engine
+    engine : Engine or Design
         With an alternator that has a `load_constant` and a `regulator_gain`.
 
     Returns
     -------
-    Engine
+    Engine or Design
         With the same steady state.
 
     Raises

@@ -4,107 +4,127 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
-from saleg import control
-from saleg.control.experiments import EQUIVALENCE_RATIOS, INTAKE_TEMPERATURES
-from saleg.engine import Engine
-from saleg.plotting import control as draw
-from saleg.simulation.run import Run
-from saleg.steady.solver import steady_state
-from saleg.thesis.experiment import Experiment, Line, Result, kilowatts, state_at
+from saleg import Engine, Run, control, steady_state
+from saleg.control import Demand, OperatingMap
+from saleg.plotting import control as plots
+from saleg.thesis.experiment import Experiment, Line, kilowatts, state_at
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 #: When a demand changes, when a ramp is over [s]; by how much power falls [W] (Fig. 100 to 103).
 CHANGES, RAMP_ENDS, STEP, RAMP = 2.0, 6.0, 2000.0, 3000.0
+#: Time simulated after a step and after a ramp [s].
+STEP_LASTS, RAMP_LASTS = 6.0, 12.0
 #: Intake temperature of the map over the equivalence ratio (Fig. 104) [K].
 WARM = 370.0
 
 
-def _rated_power(engine: Engine) -> float:
-    return steady_state(engine).performance.power
+class Followed(NamedTuple):
+    """Run in which something followed a demand."""
+
+    run: Run
+    demand: Demand
 
 
-def _falls(engine: Engine) -> control.Demand:
-    """A step down from rated power."""
-    power = _rated_power(engine)
-    return control.Demand.step(CHANGES, power, max(power - STEP, 0.0))
+def step_down(engine: Engine) -> Demand:
+    """Demand that steps down from rated power."""
+    power = steady_state(engine).performance.power
+    return Demand.step(CHANGES, power, max(power - STEP, 0.0))
 
 
-def _ramps(engine: Engine) -> control.Demand:
-    """A ramp down from rated power."""
-    power = _rated_power(engine)
-    return control.Demand.ramp(CHANGES, RAMP_ENDS, power, max(power - RAMP, 0.0))
+def ramp_down(engine: Engine) -> Demand:
+    """Demand that falls evenly from rated power."""
+    power = steady_state(engine).performance.power
+    return Demand.ramp(CHANGES, RAMP_ENDS, power, max(power - RAMP, 0.0))
 
 
-Follows = Callable[..., Run]
-Wanted = Callable[[Engine], control.Demand]
+def load_step(
+    engine: Engine, demand: Demand | None = None, duration: float = STEP_LASTS
+) -> Followed:
+    """Step in demand answered by the load alone (Fig. 100)."""
+    wanted = demand or step_down(engine)
+    return Followed(control.demand_by_load(engine, wanted, duration=duration), wanted)
 
 
-def _follow(follows: Follows, wanted: Wanted, lasts: float) -> Callable[..., Result]:
-    """An experiment in which something follows a demand."""
-
-    def perform(
-        engine: Engine, demand: control.Demand | None = None, duration: float = lasts
-    ) -> Result:
-        demand = demand or wanted(engine)
-        run = follows(engine, demand, duration=duration)
-        return Result(run=run, also={"demand": demand})
-
-    return perform
+def intake_step(
+    engine: Engine, demand: Demand | None = None, duration: float = STEP_LASTS
+) -> Followed:
+    """Step in demand answered by the intake temperature (Fig. 102)."""
+    wanted = demand or step_down(engine)
+    return Followed(control.demand_by_intake(engine, wanted, duration=duration), wanted)
 
 
-def _report_demand(efficiency: str, meets: str) -> Callable[[Result], list[Line]]:
-    """Report of a demand followed, beside what the dissertation says."""
-
-    def report(result: Result) -> list[Line]:
-        run, demand = result.one, result.also["demand"]
-        before, last = state_at(run, demand.times[0]), state_at(run, math.inf)
-        return [
-            Line("power before", kilowatts(before.power)),
-            Line("demand at last", kilowatts(demand.powers[-1])),
-            Line("power at last", kilowatts(last.power), meets),
-            Line("compression ratio at last", f"{last.compression_ratio:.4g}"),
-            Line("load weight at last", f"{last.load_weight:.3f}"),
-            Line("intake temperature at last", f"{last.intake_temperature:.1f} K"),
-            Line("equivalence ratio at last", f"{last.equivalence_ratio:.3f}"),
-            Line("efficiency at last", f"{100.0 * run.performance.efficiency:.1f} %", efficiency),
-        ]
-
-    return report
+def intake_ramp(
+    engine: Engine, demand: Demand | None = None, duration: float = RAMP_LASTS
+) -> Followed:
+    """Ramp in demand answered by the intake temperature (Fig. 103)."""
+    wanted = demand or ramp_down(engine)
+    return Followed(control.demand_by_intake(engine, wanted, duration=duration), wanted)
 
 
-def _intake_map(engine: Engine) -> Result:
-    known = control.operating_map(engine, "intake.temperature", INTAKE_TEMPERATURES)
-    return Result(table=known.table, also={"map": known})
+def fuel_step(
+    engine: Engine, demand: Demand | None = None, duration: float = STEP_LASTS
+) -> Followed:
+    """Step in demand answered by the equivalence ratio (5.2)."""
+    wanted = demand or step_down(engine)
+    return Followed(control.demand_by_fuel(engine, wanted, duration=duration), wanted)
 
 
-def _fuel_map(engine: Engine) -> Result:
-    warm = engine.replace(**{"intake.temperature": WARM})
-    known = control.operating_map(warm, "equivalence_ratio", EQUIVALENCE_RATIOS)
-    return Result(table=known.table, also={"map": known})
+def draw_demand(found: Followed) -> object:
+    """Power beside the demand, and how it was met (Fig. 100, 102, 103)."""
+    return plots.demand(found.run, found.demand)
 
 
-def _report_map(said: str) -> Callable[[Result], list[Line]]:
-    """Report of an operating map."""
-
-    def report(result: Result) -> list[Line]:
-        known = result.also["map"]
-        powers, ratios = known.powers, known.compression_ratios
-        return [
-            Line("stable steady states", f"{len(powers)} of {len(result.many)}"),
-            Line("least power", kilowatts(powers[0]), said),
-            Line("greatest power", kilowatts(powers[-1])),
-            Line("compression ratios", f"{min(ratios):.2f} to {max(ratios):.2f}"),
-        ]
-
-    return report
-
-
-def _map(engine: Engine) -> Result:
-    return Result(table=control.operating_grid(engine, INTAKE_TEMPERATURES, EQUIVALENCE_RATIOS))
+def report_demand(found: Followed, power: str, efficiency: str = "") -> list[Line]:
+    """State before the demand changed and at last; what the dissertation says of the last."""
+    run, demand = found
+    before, last = state_at(run, demand.times[0]), state_at(run, math.inf)
+    return [
+        Line("power before", kilowatts(before.power)),
+        Line("demand at last", kilowatts(demand.powers[-1])),
+        Line("power at last", kilowatts(last.power), power),
+        Line("compression ratio at last", f"{last.compression_ratio:.4g}"),
+        Line("load weight at last", f"{last.load_weight:.3f}"),
+        Line("intake temperature at last", f"{last.intake_temperature:.1f} K"),
+        Line("equivalence ratio at last", f"{last.equivalence_ratio:.3f}"),
+        Line("efficiency at last", f"{100.0 * run.performance.efficiency:.1f} %", efficiency),
+    ]
 
 
-def _report_grid(result: Result) -> list[Line]:
-    table = result.many
+def intake_map(engine: Engine) -> OperatingMap:
+    """Steady states over the intake temperature (Fig. 101)."""
+    return control.intake_map(engine)
+
+
+def fuel_map(engine: Engine) -> OperatingMap:
+    """Steady states over the equivalence ratio, with a warm intake (Fig. 104)."""
+    return control.fuel_map(engine.replace(**{"intake.temperature": WARM}))
+
+
+def report_map(known: OperatingMap, least: str = "") -> list[Line]:
+    """How far a map reaches; what the dissertation says of the least power."""
+    powers, ratios = known.powers, known.compression_ratios
+    return [
+        Line("stable steady states", f"{len(powers)} of {len(known.table)}"),
+        Line("least power", kilowatts(powers[0]), least),
+        Line("greatest power", kilowatts(powers[-1])),
+        Line("compression ratios", f"{min(ratios):.2f} to {max(ratios):.2f}"),
+    ]
+
+
+def grid(engine: Engine) -> pd.DataFrame:
+    """Steady states over intake temperature and equivalence ratio (Fig. 105)."""
+    maps = control.intake_map(engine), control.fuel_map(engine)
+    temperatures, ratios = (known.table[known.path].tolist()[::2] for known in maps)
+    return control.operating_grid(engine, temperatures, ratios)
+
+
+def report_grid(table: pd.DataFrame) -> list[Line]:
+    """How much of the grid can be reached."""
     good = table[(table["status"] == "steady") & table["stable"]]
     return [
         Line("stable steady states", f"{len(good)} of {len(table)}", "a significant space"),
@@ -113,62 +133,57 @@ def _report_grid(result: Result) -> list[Line]:
     ]
 
 
-DEMANDS = ("duration", "demand")
-DRAW_DEMAND = {"demand.png": lambda result: draw.demand(result.one, result.also["demand"])}
-DRAW_MAP = {"map.png": lambda result: draw.operating_map(result.also["map"])}
+def _followed(
+    summary: str, run: Callable[..., Followed], power: str, efficiency: str = ""
+) -> Experiment:
+    """Experiment with a demand, and what the dissertation says of how it ends."""
+    report = partial(report_demand, power=power, efficiency=efficiency)
+    return Experiment(summary, run, {"demand.png": draw_demand}, report)
+
 
 #: Experiments by name.
 EXPERIMENTS = {
-    "load-step": Experiment(
+    "load-step": _followed(
         "let the load alone answer a step in demand: it runs away (Fig. 100)",
-        _follow(control.demand_by_load, _falls, 6.0),
-        DRAW_DEMAND,
-        _report_demand("", "runs away"),
-        DEMANDS,
+        load_step,
+        power="runs away",
     ),
     "intake-map": Experiment(
         "steady states over the intake temperature (Fig. 101)",
-        _intake_map,
-        DRAW_MAP,
-        _report_map(""),
-        (),
+        intake_map,
+        {"map.png": plots.operating_map},
+        report_map,
         is_run=False,
     ),
     "fuel-map": Experiment(
         f"steady states over the equivalence ratio at {WARM:g} K (Fig. 104)",
-        _fuel_map,
-        DRAW_MAP,
-        _report_map("below 1 kW"),
-        (),
+        fuel_map,
+        {"map.png": plots.operating_map},
+        partial(report_map, least="below 1 kW"),
         is_run=False,
     ),
     "map": Experiment(
         "steady states over intake temperature and equivalence ratio (Fig. 105)",
-        _map,
-        {"map.png": lambda result: draw.operating_grid(result.many)},
-        _report_grid,
-        (),
+        grid,
+        {"map.png": plots.operating_grid},
+        report_grid,
         is_run=False,
     ),
-    "intake-step": Experiment(
+    "intake-step": _followed(
         "let the intake temperature answer a step in demand (Fig. 102)",
-        _follow(control.demand_by_intake, _falls, 6.0),
-        DRAW_DEMAND,
-        _report_demand("22 %", "meets the demand"),
-        DEMANDS,
+        intake_step,
+        power="meets the demand",
+        efficiency="22 %",
     ),
-    "intake-ramp": Experiment(
+    "intake-ramp": _followed(
         "let the intake temperature answer a ramp in demand (Fig. 103)",
-        _follow(control.demand_by_intake, _ramps, 8.0),
-        DRAW_DEMAND,
-        _report_demand("15 %", "follows until outside the map"),
-        DEMANDS,
+        intake_ramp,
+        power="follows until outside the map",
+        efficiency="15 %",
     ),
-    "fuel-step": Experiment(
+    "fuel-step": _followed(
         "let the equivalence ratio answer a step in demand (5.2)",
-        _follow(control.demand_by_fuel, _falls, 6.0),
-        DRAW_DEMAND,
-        _report_demand("", "proposed, not shown"),
-        DEMANDS,
+        fuel_step,
+        power="proposed, not shown",
     ),
 }

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.errors import SweepError
 from saleg.status import Status
-from saleg.sweep.points import Ranges, SweepError, box, checked_seed, refuse_too_many
+from saleg.sweep.points import Ranges, box, checked_seed, refuse_too_many
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -11,12 +11,38 @@ from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from saleg.engine.text_files import is_folder
-from saleg.errors import SalegError
+from saleg.errors import RunFileError, SalegError
+from saleg.files.reading import is_folder
 
 
-class RunFileError(SalegError, OSError):
-    """A file or folder of a run that cannot be written or read; says which and why."""
+def write_text(path: Path, text: str, mode: int = 0o666) -> None:
+    """Write a text file, the same on every system, in place of an earlier one.
+
+    Parameters
+    ----------
+    path : Path
+        The file wanted, in a folder that is there.
+    text : str
+    mode : int
+        Who may read and write it, less what the user's mask takes away.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written; an earlier file then stays as it was.
+    """
+
+    def opened(name: str, flags: int) -> int:
+        return os.open(name, flags, mode)
+
+    temporary = _beside(path)
+    try:
+        with open(temporary, "x", encoding="utf-8", newline="\n", opener=opened) as file:
+            file.write(text)
+        os.replace(temporary, path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
 
 
 @contextmanager
@@ -102,7 +128,7 @@ def _taking_its_place(target: Path, check: Callable[[Path], None]) -> Iterator[P
         target = target.resolve()
         check(target)
         made = _make_parents(target)
-        temporary = target.parent / f".{target.name}-{os.getpid()}-{secrets.token_hex(3)}"
+        temporary = _beside(target)
         made.append(temporary)
         yield temporary
         check(target)
@@ -112,6 +138,11 @@ def _taking_its_place(target: Path, check: Callable[[Path], None]) -> Iterator[P
         if isinstance(error, OSError) and not isinstance(error, SalegError):
             raise RunFileError(f"cannot write {target}: {error.strerror or error}") from None
         raise
+
+
+def _beside(path: Path) -> Path:
+    """A hidden name in the same folder that nobody else uses."""
+    return path.with_name(f".{path.name}-{os.getpid()}-{secrets.token_hex(8)}")
 
 
 def _no_file_above(path: Path) -> None:

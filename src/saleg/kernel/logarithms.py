@@ -1,10 +1,10 @@
-"""Logarithms and constants at hand as a law is evaluated: see the compiler's strength reduction."""
+"""Additional argument of laws in reduced form (:mod:`saleg.compiler.strength_reduction`)."""
 
 from typing import NamedTuple
 
 
-class Aid(NamedTuple):
-    """What the integrator knows beside the gas.
+class Logarithms(NamedTuple):
+    """Logarithms of the state of the gas, and constants of a law.
 
     Attributes
     ----------

@@ -1,0 +1,156 @@
+"""One table for many items: pieces of work sent out, their rows put in order."""
+
+from __future__ import annotations
+
+import itertools
+import sys
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import nullcontext
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from saleg.batch.workers import completed
+from saleg.errors import SalegError
+from saleg.status import Status
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: Items sent to a worker at a time.
+CHUNK = 32
+#: Columns that hold text.
+TEXT = ("status", "message", "method", "kind")
+#: What stands in a column where a row has no entry, by the type of its values.
+MISSING: dict[type, Any] = {object: "", bool: False, float: np.nan}
+
+T = TypeVar("T")
+Row = dict[str, Any]
+Columns = dict[str, np.ndarray]
+
+
+def kind_of(name: str) -> type:
+    """Type of the values in a column."""
+    return object if name in TEXT else bool if name == "stable" else float
+
+
+def rows_of(row_of: Callable[[T], Row], items: Iterable[T]) -> Columns:
+    """Rows of some items, column by column; an item that cannot even begin is a row too."""
+    rows = [_row_or_reason(row_of, item) for item in items]
+    return {name: _column(name, rows) for name in dict.fromkeys(itertools.chain(*rows))}
+
+
+def _row_or_reason(row_of: Callable[[T], Row], item: T) -> Row:
+    try:
+        return row_of(item)
+    except SalegError as error:
+        reason = str(error)
+    except Exception as error:  # a law of the user's, or no engine at all: one row, not all
+        reason = f"{type(error).__name__}: {error}"
+    return {"status": str(Status.INVALID), "message": reason}
+
+
+def _column(name: str, rows: Sequence[Row]) -> np.ndarray:
+    kind = kind_of(name)
+    return np.array([row.get(name, MISSING[kind]) for row in rows], dtype=kind)
+
+
+def _same_for_all(item: object) -> Hashable:
+    """The kernel of items that share one."""
+    return None
+
+
+def in_pieces(
+    work: Callable[[Sequence[T]], Columns],
+    items: Iterable[T],
+    *,
+    chunk: int = CHUNK,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    kernel_of: Callable[[T], Hashable] = _same_for_all,
+    done: Collection[int] = (),
+    total: int | None = None,
+) -> Iterator[tuple[int, Columns]]:
+    """Columns of numbered pieces of a batch as they are completed, in any order.
+
+    Parameters
+    ----------
+    work : callable
+        Makes the columns of a piece; it travels to the workers.
+    items : iterable
+        Taken as they are needed, so they need not all exist at once.
+    chunk : int
+        Items in a piece.
+    executor, workers
+        As for :func:`saleg.batch.workers.completed`.
+    kernel_of : callable
+        Tells items apart that need kernels of their own; one kernel for all unless given.
+    done : collection of int
+        Numbers of pieces to leave out.
+    total : int, optional
+        Number of items, for the progress bar.
+
+    Yields
+    ------
+    (int, dict of str to ndarray)
+    """
+    source = iter(items)
+    chunks = iter(lambda: list(itertools.islice(source, chunk)), [])
+    pieces = (piece for piece in enumerate(chunks) if piece[0] not in done)
+    with progress_bar(total) as bar:
+        ready = _compiled_first(work, pieces, kernel_of)
+        for number, columns in completed(work, ready, executor, workers):
+            if bar is not None:
+                bar.update(len(columns["status"]))
+            yield number, columns
+
+
+def _compiled_first(
+    work: Callable[[Sequence[T]], Columns],
+    pieces: Iterable[tuple[int, list[T]]],
+    kernel_of: Callable[[T], Hashable],
+) -> Iterator[tuple[int, list[T]]]:
+    """Pieces, the first item of each kernel tried here and now.
+
+    So it is compiled once before the workers ask for it: cold caches are no place for a race.
+    """
+    known: set[Hashable] = set()
+    for number, items in pieces:
+        for item in items:
+            try:
+                kernel = kernel_of(item)
+            except Exception:
+                continue  # its row will say why
+            if kernel not in known:
+                known.add(kernel)
+                work([item])
+        yield number, items
+
+
+def table_of(parts: Mapping[int, Columns], units: Mapping[str, str]) -> pd.DataFrame:
+    """Columns of pieces in the order of their numbers, with units in ``.attrs``."""
+    import pandas as pd
+
+    ordered = [parts[number] for number in sorted(parts)]
+    frame = pd.DataFrame({name: _joined(name, ordered) for name in units})
+    frame.attrs["units"] = dict(units)
+    return frame
+
+
+def _joined(name: str, parts: Sequence[Columns]) -> np.ndarray:
+    """One column of all pieces, filled up where a piece has none."""
+    kind = kind_of(name)
+    filled = [
+        part.get(name, np.full(len(part["status"]), MISSING[kind], dtype=kind)) for part in parts
+    ]
+    return np.concatenate([np.zeros(0, kind), *filled])
+
+
+def progress_bar(total: int | None) -> Any:
+    """Progress bar for batches longer than a second of waiting, on a terminal only."""
+    if not sys.stderr.isatty():
+        return nullcontext()
+    from tqdm import tqdm
+
+    return tqdm(total=total, delay=1, leave=False, unit=" rows")

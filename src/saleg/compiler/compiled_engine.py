@@ -1,0 +1,136 @@
+"""An engine as the integrator takes it: the kernel of its laws, their numbers, a controller."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from saleg.compiler import plain, records
+from saleg.compiler.cache import usable_folder
+from saleg.compiler.controllers import control_of, nobody
+from saleg.compiler.kernel import Kernel
+from saleg.compiler.module import load
+from saleg.compiler.source import NoSource, fingerprint, is_ours
+from saleg.compiler.text import INTEGRATOR, compose
+from saleg.kernel.tuples import Control
+from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
+from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
+
+if TYPE_CHECKING:
+    from saleg.compiler.records import Lengths
+    from saleg.engine import Engine
+    from saleg.engine.controller import Controller
+    from saleg.laws.control.base import ActuatorLaw
+
+#: What fills the combustion slots of a bounce chamber; never called, since it never lights.
+IDLE_LAWS: dict[str, Law] = {
+    "heat_release": Wiebe(),
+    "ignition": CFRIgnition(),
+    "gas_exchange": InstantExchange(),
+    "misfires": NoMisfires(),
+}
+
+#: Actuators of an engine without a controller; never called.
+IDLE_ACTUATORS = Actuators()
+
+
+class CompiledEngine(NamedTuple):
+    """An engine as the integrator takes it.
+
+    Attributes
+    ----------
+    kernel : Kernel
+    parameters : array of one record
+        Numbers of the laws; the laws themselves where nothing is compiled.
+    control : Control
+        What the kernel asks for commands.
+    """
+
+    kernel: Kernel
+    parameters: Any
+    control: Control
+
+
+def compiled_engine(
+    engine: Engine,
+    controller: Controller | None = None,
+    *,
+    asks: bool = True,
+    modules: tuple[str, ...] = INTEGRATOR,
+) -> CompiledEngine:
+    """Kernel, numbers and controller of an engine; compilation waits for the first call.
+
+    Parameters
+    ----------
+    engine : Engine
+    controller : Controller, optional
+        Whose actuators stand before the engine.
+    asks : bool
+        Whether the kernel asks the controller at dead centres; if not, its caller does.
+    modules : tuple of str
+        Modules of the kernel.
+
+    Raises
+    ------
+    LawError
+        If a law cannot be compiled, naming it.
+    """
+    laws = _laws_in_order(engine, controller.actuators if controller is not None else None)
+    control = control_of(controller) if controller is not None and asks else nobody()
+    numbers = plain.plain_laws(laws) if plain.is_wanted() else records.parameters(laws)
+    return CompiledEngine(_kernel(laws, modules), numbers, control)
+
+
+def kernel_for(
+    engine: Engine,
+    modules: tuple[str, ...] = INTEGRATOR,
+    actuators: ActuatorLaw | None = None,
+) -> Kernel:
+    """Kernel for the laws of an engine and the actuators before it.
+
+    Composed once per choice of laws, and anew when a law, or a helper or constant it uses, has
+    been changed in this process, as in a notebook.
+    """
+    return _kernel(_laws_in_order(engine, actuators), modules)
+
+
+def _laws_in_order(engine: Engine, actuators: ActuatorLaw | None) -> list[Law]:
+    """Laws of an engine in the order of their record: left, right, engine, actuators."""
+    left, right = (IDLE_LAWS | chamber.laws for chamber in engine.chambers)
+    laws = [side[slot] for side in (left, right) for slot in CHAMBER_SLOTS]
+    laws += [getattr(engine, slot) for slot in ENGINE_SLOTS]
+    return [*laws, actuators or IDLE_ACTUATORS]
+
+
+def _kernel(laws: list[Law], modules: tuple[str, ...]) -> Kernel:
+    if plain.is_wanted():
+        return plain.plain_kernel(modules)
+    classes: tuple[Any, ...] = tuple(map(type, laws))
+    state = tuple(map(fingerprint, _own(classes)))
+    return _composed(classes, modules, records.lengths_of_all(laws), state)
+
+
+@lru_cache(maxsize=256)
+def _own(classes: tuple[Any, ...]) -> tuple[type[Law], ...]:
+    """Those among some law classes that are not the library's."""
+    return tuple(law for law in dict.fromkeys(classes) if not is_ours(law))
+
+
+@lru_cache(maxsize=128)
+def _composed(
+    classes: tuple[type[Law], ...],
+    modules: tuple[str, ...],
+    lengths: tuple[Lengths, ...],
+    state: tuple[object, ...],
+) -> Kernel:
+    """Kernel for a choice of law classes in a certain state."""
+    own = [law.__name__ for law in _own(classes)]
+    folder = usable_folder()
+    injected: dict[str, Any] = {}
+    try:
+        text = compose(classes, modules, kept=folder is not None)
+    except NoSource:  # what is compiled from bytecode is not kept
+        folder = None
+        text = compose(classes, modules, kept=False, injected=injected)
+    text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
+    return Kernel(*load(text, "kernel", folder, injected), own)

@@ -1,0 +1,88 @@
+"""Kernels: the entry points of a composed module, compiled when first called."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from pathlib import Path
+from typing import Any
+
+from saleg.compiler import machine_code
+from saleg.errors import LawError
+from saleg.files.lock import locked
+
+
+class Kernel:
+    """Compiled kernel for one choice of laws.
+
+    Parameters
+    ----------
+    module : module
+        The composed module.
+    lock : Path or None
+        File that serialises compilation among processes.
+    laws : sequence of str
+        Names of the laws in it that are not the library's, for errors.
+    """
+
+    def __init__(self, module: types.ModuleType, lock: Path | None, laws: Sequence[str] = ()):
+        self.module = module
+        self._lock = lock
+        self._laws = laws
+        # An entry point is always called with the same types: what they are is found out once.
+        self._entries: dict[str, Callable[..., Any]] = {}
+        self._addresses: dict[str, int] = {}
+
+    def function(self, name: str) -> Callable[..., Any]:
+        """An entry point for arguments of any types."""
+        function: Callable[..., Any] = getattr(self.module, name)
+        return function
+
+    def call(self, name: str, *arguments: Any) -> Any:
+        """Call an entry point; the first call compiles it, one process at a time."""
+        entry = self._entries.get(name)
+        if entry is None:
+            function, kinds = self._compiled(name, arguments)
+            entry = self._entries[name] = machine_code.entry_point(function, kinds)
+        return entry(*arguments)
+
+    def address(self, name: str, arguments: tuple[Any, ...]) -> int:
+        """Address of an entry point for arguments of these types, compiled if need be."""
+        if name not in self._addresses:
+            self._addresses[name] = machine_code.address(*self._compiled(name, arguments))
+        return self._addresses[name]
+
+    def _compiled(
+        self, name: str, arguments: tuple[Any, ...]
+    ) -> tuple[Callable[..., Any], machine_code.Types]:
+        """An entry point, compiled for arguments of these types, and the types."""
+        function, kinds = self.function(name), machine_code.types_of(arguments)
+        if not machine_code.is_compiled(function, kinds):
+            with locked(self._lock) if self._lock else nullcontext():
+                self._compile(function, kinds)
+        return function, kinds
+
+    def _compile(self, function: Callable[..., Any], kinds: machine_code.Types) -> None:
+        """Compile an entry point or load it; what is damaged on disk is compiled afresh."""
+        from numba.core.errors import NumbaError
+
+        try:
+            machine_code.compile_for(function, kinds)
+        except NumbaError as error:
+            raise LawError(
+                f"the laws {', '.join(self._laws)} cannot be compiled: {_reason(error)}"
+            ) from error
+        except Exception:
+            if self._lock is None:
+                raise
+            for damaged in self._lock.parent.glob(f"__pycache__/{self._lock.stem}*"):
+                damaged.unlink(missing_ok=True)
+            machine_code.compile_for(function, kinds)
+
+
+def _reason(error: Exception) -> str:
+    """What numba says of the cause, without the chain of what it was doing."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    telling = [line for line in lines if not line.startswith(("Failed in", "During", "File", "<"))]
+    return " ".join(telling[:2]) if telling else str(error)

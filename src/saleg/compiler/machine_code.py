@@ -1,0 +1,81 @@
+"""What saleg knows of numba's inside: here, and in ``run_at.py``, and nowhere else.
+
+Numba promises none of it. Each is a short cut with a longer way round, taken by itself where numba
+has changed:
+
+- compiling before the first call, so that one process at a time does; else the call compiles;
+- an entry point called without finding out the types of its arguments, which spares a twentieth of
+  a millisecond; else numba's dispatcher is called;
+- a function's address, so that the search for steady states does not compile the integrator a
+  second time; else it does (:func:`has_addresses`, asked as the text is composed).
+"""
+
+from __future__ import annotations
+
+import pkgutil
+from collections.abc import Callable, Sequence
+from typing import Any
+
+#: What a call by address takes: here for the address, in ``run_at.py`` for the call.
+ADDRESS_NEEDS = (
+    "numba.core.compiler:CompileResult.library",
+    "numba.core.compiler:CompileResult.fndesc",
+    "numba.core.funcdesc:FunctionDescriptor.llvm_func_name",
+    "numba.core.codegen:JITCodeLibrary.get_pointer_to_function",
+    "numba.core.callconv:CPUCallConv.get_function_type",
+    "numba.core.callconv:CPUCallConv.call_function",
+)
+
+#: Numba's types of some arguments.
+Types = tuple[Any, ...]
+
+
+def types_of(arguments: Sequence[Any]) -> Types:
+    """Numba's types of some arguments."""
+    from numba import typeof
+
+    return tuple(typeof(argument) for argument in arguments)
+
+
+def is_compiled(function: Any, types: Types) -> bool:
+    """Whether a function is known to be compiled for arguments of some types."""
+    return _result(function, types) is not None
+
+
+def compile_for(function: Any, types: Types) -> None:
+    """Compile a function for arguments of some types, or load its machine code."""
+    compile_now = getattr(function, "compile", None)
+    if compile_now is not None:
+        compile_now(types)
+
+
+def entry_point(function: Any, types: Types) -> Callable[..., Any]:
+    """A function for arguments of these types only, which it does not check."""
+    entry: Callable[..., Any] = getattr(_result(function, types), "entry_point", function)
+    return entry
+
+
+def has_addresses() -> bool:
+    """Whether compiled functions can be called by their addresses with this numba."""
+    return all(map(_exists, ADDRESS_NEEDS))
+
+
+def address(function: Any, types: Types) -> int:
+    """Address of a compiled function; 0 where there are no addresses."""
+    if not has_addresses():
+        return 0
+    result = _result(function, types)
+    return int(result.library.get_pointer_to_function(result.fndesc.llvm_func_name))
+
+
+def _result(function: Any, types: Types) -> Any:
+    """What numba knows of a function compiled for some types; None if nothing."""
+    return getattr(function, "overloads", {}).get(types)
+
+
+def _exists(name: str) -> bool:
+    try:
+        pkgutil.resolve_name(name)
+    except (ImportError, AttributeError):
+        return False
+    return True

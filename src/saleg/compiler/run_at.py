@@ -1,0 +1,24 @@
+"""Call of the integrator by its address, as composed modules have it.
+
+Only machine_code.py and this file know numba's inside. Where numba has changed, the composed module
+has kernel/run_plainly.py in its place, and the integrator is compiled into its caller.
+"""
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+
+@intrinsic
+def run_at(typing_context, address, run):
+    """Call the integrator with its arguments; returns its code."""
+
+    def generate(context, builder, signature, arguments):
+        kind = context.call_conv.get_function_type(types.int64, [run])
+        function = builder.inttoptr(arguments[0], ir.PointerType(kind))
+        _, code = context.call_conv.call_function(
+            builder, function, types.int64, [run], [arguments[1]]
+        )
+        return code
+
+    return types.int64(types.int64, run), generate

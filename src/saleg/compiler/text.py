@@ -1,0 +1,234 @@
+"""The text of a composed module: modules of the kernel as they stand, slots filled with laws.
+
+Only the slots (:mod:`saleg.kernel.slots` in plain Python) are written anew, each as a function that
+calls the law of its side with the law's record.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from saleg.compiler import machine_code
+from saleg.compiler.module import without_source
+from saleg.compiler.records import OTHER_SLOTS
+from saleg.compiler.source import Borrowed, NoSource, earlier_attributes
+from saleg.compiler.strength_reduction import EXPONENTIAL
+from saleg.errors import LawError
+from saleg.laws import Law
+from saleg.laws.base import CHAMBER_SLOTS
+
+PACKAGE = Path(__file__).resolve().parent.parent
+#: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
+BEFORE_SLOTS = (
+    "laws/arguments.py",
+    "kernel/copies.py",
+    "kernel/tuples.py",
+    "kernel/logarithms.py",
+    "kernel/layout.py",
+    "compiler/call_at.py",
+)
+#: How the search for steady states calls the integrator, and how if numba has no addresses.
+RUN_AT, RUN_PLAINLY = "compiler/run_at.py", "kernel/run_plainly.py"
+#: Modules of the kernel that make up the integrator.
+INTEGRATOR = (
+    "rhs",
+    "step",
+    "events",
+    "peaks",
+    "control",
+    "switch",
+    "observe",
+    "integrate",
+    "orbit",
+)
+
+#: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. Only entry points get
+#: wrappers for Python, which halves the time to compile. Nothing in a kernel allocates, so nothing
+#: need be counted (`_nrt`): counting references to the arrays took a third of the time.
+COMPILED_HEADER = """\
+inline = numba.njit(
+    forceinline=True,
+    error_model="numpy",
+    _nrt=False,
+    no_cpython_wrapper=True,
+    no_cfunc_wrapper=True,
+)
+compiled = numba.njit(
+    error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
+)
+"""
+CACHED_ON_DISK = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=True)\n'
+CACHED_IN_MEMORY = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True)\n'
+
+
+def compose(
+    classes: Sequence[type[Law]],
+    modules: Sequence[str] = INTEGRATOR,
+    *,
+    kept: bool = True,
+    injected: dict[str, Any] | None = None,
+) -> str:
+    """Text of a composed module.
+
+    Parameters
+    ----------
+    classes : sequence of type
+        Classes of the laws, in the order of the record: left, right, engine, actuators.
+    modules : sequence of str
+        Modules of the kernel.
+    kept : bool
+        Whether machine code of entry points is kept on disk.
+    injected : dict, optional
+        Takes the methods whose source cannot be had, by the names the text calls them.
+
+    Raises
+    ------
+    NoSource
+        If there is such a method and no place for it.
+    LawError
+        If a law cannot be compiled.
+    """
+    n = len(CHAMBER_SLOTS)
+    left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
+    parts = ["import math", "import numba", "import numpy as np", ""]
+    parts += [f"from math import exp as {EXPONENTIAL}"]
+    parts += [COMPILED_HEADER + (CACHED_ON_DISK if kept else CACHED_IN_MEMORY)]
+    parts += [own_text(name) for name in BEFORE_SLOTS]
+    eases = "rhs" in modules
+    for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
+        parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
+    for (name, base), law in zip(OTHER_SLOTS.items(), rest, strict=True):
+        parts += _engine_slot(name, base, law, injected)
+    parts += [own_text(f"kernel/{name}.py") for name in modules]
+    if "orbit" in modules:
+        parts.append(own_text(RUN_AT if machine_code.has_addresses() else RUN_PLAINLY))
+    text = "\n".join(parts) + "\n"
+    _check_names(text)
+    return text
+
+
+def _engine_slot(
+    name: str, base: type[Law], law: type[Law], injected: dict[str, Any] | None
+) -> list[str]:
+    """Functions of one slot of the engine as a whole."""
+    parts = []
+    for method in base.compiled:
+        parts += methods_text(law, method, f"engine_{name}", base, injected)
+        arguments = ", ".join(_arguments(base, method))
+        parts.append(
+            f"@inline\ndef {name}_{method}(P, {arguments}):\n"
+            f"    return engine_{name}_{method}(P.{name}, {arguments})\n"
+        )
+    return parts
+
+
+def _chamber_slot(
+    name: str,
+    base: type[Law],
+    left: type[Law],
+    right: type[Law],
+    injected: dict[str, Any] | None,
+    eases: bool,
+) -> list[str]:
+    """Functions of one chamber slot; one set serves both sides where their laws are alike."""
+    parts = []
+    both = left is right
+    names = ("both", "both") if both else ("left", "right")
+    for method in base.compiled:
+        easy = eases and method in base.at_every_step
+        for place, law in (("both", left),) if both else (("left", left), ("right", right)):
+            parts += methods_text(law, method, f"{place}_{name}", base, injected, easy)
+        arguments = ", ".join(_arguments(base, method))
+        if easy:
+            parts.append(_by_side(f"{name}_{method}", name, f"{arguments}, aid", names))
+            parts.append(_by_side(f"{name}_{method}_constants", name, arguments, names))
+        else:
+            parts.append(_by_side(f"{name}_{method}", name, arguments, names))
+    return parts
+
+
+def _by_side(function: str, slot: str, arguments: str, names: tuple[str, str]) -> str:
+    """Text of a function that calls the law of the side it is asked for."""
+    return (
+        f"@inline\ndef {function}(P, side, {arguments}):\n"
+        f"    if side == 0:\n"
+        f"        return {names[0]}_{function}(P.left.{slot}, {arguments})\n"
+        f"    return {names[1]}_{function}(P.right.{slot}, {arguments})\n"
+    )
+
+
+#: What stands for the eased form of a method without source.
+NOT_EASED = """\
+@inline
+def {name}(self, gas, charge, aid):
+    return {name}__plain(self, gas, charge)
+@inline
+def {name}_constants(self, gas, charge):
+    return 0.0, 0.0, 0.0
+"""
+
+
+def methods_text(
+    law: type[Law],
+    method: str,
+    prefix: str,
+    base: type[Law],
+    injected: dict[str, Any] | None = None,
+    eases: bool = False,
+) -> list[str]:
+    """Definitions needed for one method of a law, as a function ``{prefix}_{method}``."""
+    function = getattr(law, method)
+    owner = f"{law.__name__}.{method}"
+    given = list(inspect.signature(function).parameters)[1:]
+    wanted = _arguments(base, method)
+    if len(given) != len(wanted):
+        raise LawError(f"{owner} must take ({', '.join(['self', *wanted])})")
+    borrowed = Borrowed(f"{prefix}_{method}__", owner)
+    add = borrowed.add_eased_method if eases else borrowed.add_method
+    try:
+        add(law, function, f"{prefix}_{method}")
+    except NoSource:
+        if injected is None:
+            raise
+        injected[f"{prefix}_{method}{'__plain' if eases else ''}"] = without_source(
+            function, earlier_attributes(law)
+        )
+        return [NOT_EASED.format(name=f"{prefix}_{method}")] if eases else []
+    return borrowed.definitions
+
+
+def _arguments(base: type[Law], method: str) -> list[str]:
+    return list(inspect.signature(getattr(base, method)).parameters)[1:]
+
+
+def own_text(name: str) -> str:
+    """Text of one of our modules without its docstring and its imports from this package."""
+    text = (PACKAGE / name).read_text(encoding="utf-8")
+    lines = text.splitlines()
+    drop: set[int] = set()
+    for index, node in enumerate(ast.parse(text).body):
+        is_docstring = index == 0 and isinstance(node, ast.Expr)
+        is_ours = isinstance(node, ast.ImportFrom) and (node.module or "").startswith("saleg")
+        if is_docstring or is_ours:
+            drop.update(range(node.lineno - 1, node.end_lineno or node.lineno))
+    kept = [line for number, line in enumerate(lines) if number not in drop]
+    return f"# --- {name}\n" + "\n".join(kept) + "\n"
+
+
+def _check_names(text: str) -> None:
+    """Refuse a module in which a name stands for two things: its parts share one namespace."""
+    seen: set[str] = set()
+    for node in ast.parse(text).body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            names = {node.name}
+        elif isinstance(node, ast.Assign):
+            names = {item.id for item in node.targets if isinstance(item, ast.Name)}
+        else:
+            continue
+        if names & seen:
+            raise LawError(f"two parts of the kernel define {', '.join(sorted(names & seen))}")
+        seen |= names

@@ -1,0 +1,145 @@
+"""States that change slowly: how far they still have to go, and Newton's method to get there.
+
+A small residual is no small distance: what decays by a factor m per return is a residual over
+``1 - m`` away from where it will end. Memories of laws, temperatures of sealed chambers and the
+charge's burnt gas may have an m next to one.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from saleg.kernel import layout
+from saleg.kernel.events import pressure_and_temperature
+from saleg.laws.base import GasProperties
+from saleg.simulation.initial_state import State
+from saleg.steady.return_map import NoReturn, ReturnMap, Search, conserved_entries, is_adiabatic
+from saleg.steady.stability import FINE
+
+#: Distance from the fixed point, in the numbers of order one a state is written in, within which a
+#: state is steady, over the tolerance of the integrator.
+NEAR = 100.0
+#: Residual up to which what did not settle may only be slow.
+SLOW = 0.1
+#: Jumps of Newton's method.
+MOST_JUMPS = 30
+
+
+def find_settled(
+    chart: ReturnMap, most: int, tolerance: float, patient: bool = True
+) -> tuple[Search, int]:
+    """Look for a fixed point that is near in all states, the slow ones included.
+
+    Parameters
+    ----------
+    chart : ReturnMap
+    most : int
+        Maps between two jumps.
+    tolerance : float
+        Residual of the map.
+    patient : bool
+        Whether to go on from what has not settled but may only be slow.
+
+    Returns
+    -------
+    found : Search
+        The last of all searches.
+    strokes : int
+        Strokes integrated in all, verifying cycles included.
+    """
+    strokes, slow = 0, False
+    begin, smallest = chart.state.copy(), SLOW
+    for _ in range(MOST_JUMPS):
+        found = chart.find(most, tolerance)
+        settled = found.code == layout.END_OF_TIME
+        strokes += int(found.maps * chart.strokes_per_map) + (2 if settled else 0)
+        if not settled:
+            unsettled = found.code == layout.NOT_FOUND and found.maps > 0.0
+            if not (patient and unsettled and found.residual < smallest):
+                return found, strokes
+            smallest = found.residual
+        # What was slow once is known too badly from two residuals: there the next jump decides.
+        if slow or not settled or not is_near(chart, NEAR * tolerance):
+            slow, jump = True, newton_step(chart)
+            if jump is None:
+                break
+            if not settled or np.abs(jump).max() > NEAR * tolerance:
+                chart.jump(jump)
+                continue
+        if not give_back_entropy(chart, begin, NEAR * tolerance):
+            return found, strokes
+    return found._replace(code=layout.NOT_FOUND), strokes
+
+
+def is_near(chart: ReturnMap, distance: float) -> bool:
+    """Whether the fixed point just found is as near, by what two residuals say of slow states.
+
+    Entry by entry: from a residual a to a residual b that is m a, ``a b / (a - b)`` is left, by
+    Aitken. The second residual is that of a whole cycle, for a map of half a cycle ``m (m + 1) a``:
+    next to m = 1 that leaves ``3/2 a b / (2 a - b)``.
+    """
+    first, second = chart.iterates.residual, chart.iterates.image - chart.iterates.point
+    usual, share = (2.0, 1.5) if chart.mirrored else (1.0, 1.0)
+    far = share * np.abs(first * second) > distance * np.abs(usual * first - second)
+    return not far.any() or not set(np.flatnonzero(far)) - conserved_entries(chart.engine)
+
+
+def newton_step(chart: ReturnMap) -> np.ndarray | None:
+    """Way from the present state to the fixed point, as Newton's method has it; None if unknown."""
+    start = State(
+        chart.state.engine.copy(), chart.state.chambers.copy(), chart.state.y.copy(), np.zeros(0)
+    )
+    fine = ReturnMap.of(chart.engine, chart.state.copy(), FINE, chart.mirrored)
+    try:
+        z = fine.vector(start)
+        residual = fine.image(start, z) - z
+        matrix = np.eye(len(z)) - fine.jacobian(start, z)
+    except NoReturn:
+        return None
+    free = [n for n in range(len(z)) if n not in conserved_entries(chart.engine)]
+    if not np.isfinite(matrix).all() or not np.isfinite(residual).all():
+        return None
+    jump = np.zeros(len(z))
+    jump[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], residual[free], rcond=None)[0]
+    return jump
+
+
+def give_back_entropy(chart: ReturnMap, begin: State, tolerance: float) -> bool:
+    """Give sealed adiabatic chambers the entropy they began with; whether that changed anything.
+
+    Every entropy has an orbit of its own: extrapolation may not choose one.
+    """
+    changed = False
+    for side, chamber in enumerate(chart.engine.chambers):
+        if not is_adiabatic(chamber):
+            continue
+        ends = [state_of_gas(state, side) for state in (begin, chart.state)]
+        gained = entropy_rise(chamber.gas_properties, *ends)  # type: ignore[attr-defined]
+        if abs(gained) > tolerance:
+            gamma = chamber.gas_properties.gamma(ends[1][0])  # type: ignore[attr-defined]
+            chart.state.y[layout.THETA + side] -= (gamma - 1.0) * gained
+            changed = True
+    return changed
+
+
+def state_of_gas(state: State, side: int) -> tuple[float, float]:
+    """Temperature [K] and volume [m^3] of the gas in a closed chamber."""
+    _, C = state.records
+    p, T = pressure_and_temperature(C, side, state.y)
+    return float(T), float(C[side].mass * C[side].gas_constant * T / p)
+
+
+def entropy_rise(
+    gas: GasProperties, before: tuple[float, float], after: tuple[float, float]
+) -> float:
+    """Rise of the entropy of a charge from one temperature and volume to another, over m R [-]."""
+    (cold, small), (hot, large) = before, after
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+    middle, half = 0.5 * math.log(hot * cold), 0.5 * math.log(hot / cold)
+    heat = sum(
+        weight / (gas.gamma(math.exp(middle + half * node)) - 1.0)
+        for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True)
+    )
+    return half * heat + math.log(large / small)

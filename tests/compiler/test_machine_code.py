@@ -1,0 +1,103 @@
+"""Numba's inside, and the longer way round where it has changed."""
+
+import math
+import types
+
+import numba
+import numpy as np
+import pytest
+
+from saleg.compiler import machine_code
+from saleg.compiler.kernel import Kernel
+from saleg.compiler.text import COMPILED_HEADER, RUN_AT, RUN_PLAINLY, own_text
+
+TOY = """
+import numba
+import numpy as np
+Integration = tuple
+{header}
+cached = numba.njit(error_model="numpy", nogil=True)
+
+@cached
+def double(a):
+    return 2.0 * a[0]
+
+{run_at}
+@cached
+def run_on(run):
+    y, step = run
+    y[0] += step
+    return 7
+
+@cached
+def outer(address, run):
+    return run_at(address, run) + 1
+"""
+
+
+def toy(run_at):
+    module = types.ModuleType("toy")
+    exec(TOY.format(header=COMPILED_HEADER, run_at=own_text(run_at)), module.__dict__)
+    return Kernel(module, None)
+
+
+@pytest.fixture
+def no_addresses(monkeypatch):
+    gone = "numba.core.codegen:JITCodeLibrary.gone"
+    monkeypatch.setattr(machine_code, "ADDRESS_NEEDS", (*machine_code.ADDRESS_NEEDS, gone))
+
+
+class Changed:
+    """A dispatcher of a numba that has kept nothing but the call."""
+
+    def __init__(self, function):
+        self._function = function
+
+    def __call__(self, *arguments):
+        return self._function(*arguments)
+
+
+def test_this_numba_has_addresses():
+    assert machine_code.has_addresses()
+
+
+@pytest.mark.parametrize("name", machine_code.ADDRESS_NEEDS)
+def test_all_that_is_needed_is_asked_for(name, monkeypatch):
+    monkeypatch.setattr(machine_code, "ADDRESS_NEEDS", (name + "_gone",))
+    assert not machine_code.has_addresses()
+
+
+def test_entry_points_are_called_directly():
+    kernel = toy(RUN_AT)
+    assert kernel.call("double", np.array([1.5])) == 3.0
+    assert kernel.call("double", np.array([2.0])) == 4.0
+    assert machine_code.is_compiled(kernel.function("double"), (numba.float64[::1],))
+
+
+def test_without_entry_points_numba_is_called():
+    kernel = toy(RUN_AT)
+    kernel.module.double = Changed(kernel.module.double)
+    assert kernel.call("double", np.array([1.5])) == 3.0
+    assert kernel.call("double", np.array([2.0])) == 4.0
+
+
+def integrated(kernel):
+    """Two calls of the toy's integrator from the toy's search."""
+    y = np.zeros(1)
+    address = kernel.address("run_on", ((y, 0.5),))
+    assert kernel.call("outer", address, (y, 0.5)) == 8
+    assert kernel.call("outer", address, (y, 0.25)) == 8
+    assert math.isclose(y[0], 0.75)
+    return address
+
+
+def test_the_integrator_is_called_by_its_address():
+    kernel = toy(RUN_AT)
+    assert integrated(kernel) != 0
+    # Its caller knows the address only: it has not compiled the integrator for itself.
+    del kernel.module.run_on
+    assert kernel.call("outer", kernel.address("run_on", ()), (np.zeros(1), 0.5)) == 8
+
+
+def test_without_addresses_it_is_called_by_name(no_addresses):
+    assert integrated(toy(RUN_PLAINLY)) == 0

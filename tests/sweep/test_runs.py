@@ -1,0 +1,45 @@
+"""Every point of a sweep is a row."""
+
+import subprocess
+import sys
+
+import numpy as np
+
+import saleg
+from helpers import falls
+from saleg import sweep
+
+
+def test_every_point_is_a_row():
+    bores = [0.064, -1.0, 0.03, 0.064]
+    temperatures = [325.0, 325.0, 325.0, 600.0]
+    table = sweep.run(sweep.listed({"bore": bores, "intake_temperature": temperatures}))
+    assert list(table.status) == ["steady", "invalid", "steady", "idling"]
+    assert list(table.stable)[:3] == [True, False, False]
+    assert table.kind[2] == "quasi-periodic"
+    assert "bore = -1" in table.message[1]
+    assert np.isnan(table.power[1])
+    assert set(table.attrs["units"]) == set(table.columns)
+    alone = saleg.design.evaluate(bore=0.064, intake_temperature=325.0)
+    assert table.power[0] == alone.quick_performance.power
+    assert table.moving_mass[0] == alone.moving_mass
+
+
+def test_an_engine_with_fixed_mass_is_swept_by_its_paths(base):
+    table = sweep.run(sweep.grid({"moving_mass": [2.0, 2.39, 3.0]}), base)
+    assert falls(table.frequency)
+    assert table.attrs["units"]["moving_mass"] == "kg"
+    assert table.power[1] == saleg.steady_state(base).quick_performance.power
+
+
+def test_warm_starts_find_the_same_along_a_line():
+    points = sweep.grid({"bore": np.linspace(0.055, 0.075, 21)})
+    cold = sweep.run(points, multipliers=False)
+    warm = sweep.run(points, multipliers=False, warm=True)
+    np.testing.assert_allclose(warm.power, cold.power, rtol=2e-5)
+
+
+def test_nothing_heavy_is_imported_with_saleg():
+    code = "import sys, saleg; print([m for m in ('pandas', 'scipy', 'dask') if m in sys.modules])"
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert out.stdout.strip() == "[]"

@@ -1,0 +1,227 @@
+"""The folder of a sweep: what is kept, damaged, killed and resumed."""
+
+import json
+import math
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from helpers import SMALL_SWEEP
+from saleg import sweep
+from saleg.design import Design
+from saleg.sweep.files import read
+from saleg.sweep.store import table_text
+
+SWEEP_FILE = """
+[sweep]
+multipliers = false
+chunk = 1
+[grid]
+bore = { from = 0.055, to = 0.075, count = 150 }
+"""
+
+
+def test_a_sweep_killed_at_random_loses_nothing_it_reported(tmp_path):
+    """SIGKILL ten times at random moments; then it ends as if nothing had happened."""
+    file = tmp_path / "bores.toml"
+    file.write_text(SWEEP_FILE)
+    folder, seed = tmp_path / "killed", random.Random(5)
+    command = [sys.executable, "-m", "saleg", "sweep", str(file), "--workers", "1"]
+    reported, kills, most = 0, 0, 0
+    while kills < 10:
+        process = subprocess.Popen(
+            [*command, "--out", str(folder)], stdout=subprocess.PIPE, text=True
+        )
+        lines = seed.randint(1, 12)
+        for text in process.stdout:
+            words = text.split()
+            if words[0] == "done":
+                now = int(words[1])
+                assert now > reported or now == 150
+                reported = now
+                lines -= 1
+            if lines <= 0:
+                break
+        time.sleep(0.02 * seed.random())
+        process.send_signal(signal.SIGKILL)
+        reported = max(
+            [reported] + [int(x.split()[1]) for x in process.stdout if x.startswith("done")]
+        )
+        process.wait()
+        process.stdout.close()
+        kills += 1
+        kept = len(list((folder / "parts").glob("[0-9]*.json")))
+        assert kept >= reported, (kept, reported)
+        assert kept >= most
+        most = kept
+    assert kept < 150
+    asked = read(file)
+    resumed = sweep.run(asked.points, asked.swept, folder=folder, **asked.settings)
+    whole = sweep.run(asked.points, asked.swept, folder=tmp_path / "whole", **asked.settings)
+    assert resumed.equals(whole)
+    for name in ("results.csv", "points.csv", "sweep.json"):
+        assert (folder / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
+
+
+def test_a_folder_says_what_it_holds_and_takes_no_other_sweep(tmp_path):
+    folder = tmp_path / "s"
+    points = sweep.grid(SMALL_SWEEP)
+    table = sweep.run(points, folder=folder, chunk=2)
+    assert sweep.load(folder).equals(table)
+    assert sweep.load(folder).attrs == table.attrs
+    known = json.loads((folder / "sweep.json").read_text())
+    assert known["inputs"] == {"bore": "m", "egr": "-"}
+    assert known["swept"]["parameters"]["half_stroke"] == 0.1
+    assert "[cylinder.ignition]" in known["swept"]["laws"]
+    assert (folder / "results.csv").read_text().startswith("bore [m],egr [-],status [-]")
+    called = []
+    sweep.run(points, folder=folder, chunk=2, report=lambda done, total: called.append(done))
+    assert called == [6]
+    for other in (
+        {"points": sweep.grid({"bore": [0.06]})},
+        {"rtol": 1e-7},
+        {"swept": Design().replace(bore=0.05)},
+    ):
+        with pytest.raises(sweep.SweepError, match="another sweep"):
+            sweep.run(**{"points": points, "chunk": 2, "folder": folder, **other})
+    with pytest.raises(sweep.SweepError, match="no finished sweep"):
+        sweep.load(tmp_path / "none")
+    strange = tmp_path / "strange"
+    strange.mkdir()
+    (strange / "thesis.pdf").write_text("")
+    with pytest.raises(sweep.SweepError, match="no folder of a sweep"):
+        sweep.run(points, folder=strange)
+
+
+def test_a_sweep_goes_on_under_another_version(stopped, monkeypatch):
+    """Parts kept by another version, whatever its kernel, are not done again."""
+    monkeypatch.setattr("saleg.sweep.runs.__version__", "99.0")
+    done = []
+    sweep.run(
+        sweep.grid(SMALL_SWEEP), folder=stopped, chunk=2, report=lambda now, _: done.append(now)
+    )
+    assert done == [6]
+    assert json.loads((stopped / "sweep.json").read_text())["version"] != "99.0"
+
+
+def test_a_file_of_the_users_own_is_left_alone(tmp_path):
+    points = sweep.grid({"bore": [0.064]})
+    (tmp_path / "points.csv").write_text("mine")
+    with pytest.raises(sweep.SweepError, match=r"it holds points\.csv"):
+        sweep.run(points, folder=tmp_path)
+    assert (tmp_path / "points.csv").read_text() == "mine"
+    assert [file.name for file in tmp_path.iterdir()] == ["points.csv"]
+
+
+@pytest.fixture
+def stopped(tmp_path):
+    """A sweep that was stopped after some of its parts."""
+
+    def stop(done, total):
+        if done >= 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep.run(sweep.grid(SMALL_SWEEP), folder=tmp_path / "s", chunk=2, report=stop, workers=1)
+    return tmp_path / "s"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        "{}",
+        '{"status":["steady"]}',
+        '{"columns": {"status": ["steady", "steady"]}}',
+        None,
+    ],
+)
+def test_a_damaged_part_is_done_again(stopped, text):
+    part = stopped / "parts" / "0000000.json"
+    part.write_text(part.read_text()[:-60] if text is None else text)
+    whole = sweep.run(sweep.grid(SMALL_SWEEP), chunk=2)
+    assert sweep.run(sweep.grid(SMALL_SWEEP), folder=stopped, chunk=2).equals(whole)
+
+
+def test_a_part_with_a_changed_number_is_done_again(stopped):
+    part = stopped / "parts" / "0000000.json"
+    part.write_text(part.read_text().replace("steady", "stalled"))
+    assert (sweep.run(sweep.grid(SMALL_SWEEP), folder=stopped, chunk=2).status == "steady").all()
+
+
+@pytest.mark.parametrize(
+    ("name", "damage"),
+    [
+        ("results.csv", lambda text: text[: text.rindex("0.064")]),  # cut at the end of a line
+        ("results.csv", lambda text: text[:-9]),
+        ("results.csv", lambda text: ""),
+        ("results.csv", lambda text: "a,b\n1,2\n"),
+        ("results.csv", lambda text: text.replace("egr [-]", "phi [-]")),
+        ("results.csv", lambda text: text.replace("0.062", "wide")),
+        ("sweep.json", lambda text: "[1, 2]"),
+        ("sweep.json", lambda text: "{}"),
+        ("sweep.json", lambda text: text[:-40]),
+    ],
+)
+def test_damaged_folders_are_named(tmp_path, name, damage):
+    folder = tmp_path / "s"
+    sweep.run(sweep.grid(SMALL_SWEEP), folder=folder, multipliers=False)
+    file = folder / name
+    file.write_text(damage(file.read_text()))
+    with pytest.raises(sweep.SweepError, match=str(folder)):
+        sweep.load(folder)
+    with pytest.raises(sweep.SweepError, match=str(folder)):
+        sweep.run(sweep.grid(SMALL_SWEEP), folder=folder, multipliers=False)
+
+
+def test_no_points_are_a_sweep_too(tmp_path):
+    points = pd.DataFrame({"bore": np.zeros(0)})
+    assert len(sweep.run(points, folder=tmp_path / "s")) == 0
+    assert len(sweep.run(points, folder=tmp_path / "s")) == 0
+
+
+def test_missing_and_binary_files_are_named(tmp_path):
+    folder = tmp_path / "s"
+    sweep.run(sweep.grid(SMALL_SWEEP), folder=folder, multipliers=False)
+    (folder / "results.csv").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(sweep.SweepError, match=r"results.csv is damaged"):
+        sweep.load(folder)
+    (folder / "points.csv").unlink()
+    with pytest.raises(sweep.SweepError, match=r"cannot read .*points.csv"):
+        sweep.run(sweep.grid(SMALL_SWEEP), folder=folder, multipliers=False)
+
+
+def test_files_of_a_sweep_are_like_any_others(tmp_path, monkeypatch):
+    folder, points = tmp_path / "s", sweep.grid({"bore": [0.064]})
+    sweep.run(points, folder=folder, multipliers=False)
+    sweep.run(points, folder=folder, multipliers=False)
+    assert not (folder / "parts").exists()
+    plain = tmp_path / "plain"
+    plain.write_text("")
+    for name in ("sweep.json", "points.csv", "results.csv"):
+        assert (folder / name).stat().st_mode == plain.stat().st_mode
+    with pytest.raises(sweep.SweepError, match=r"cannot write .*plain"):
+        sweep.run(points, folder=plain / "s")
+
+    def full(*paths):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(sweep.SweepError, match=r"cannot write .*points.csv: No space"):
+        sweep.run(points, folder=tmp_path / "other")
+    assert not list((tmp_path / "other").glob(".points*"))
+
+
+def test_numbers_that_are_none_survive_the_folder(tmp_path):
+    table = sweep.run(sweep.grid({"bore": [0.064, -1.0]}), folder=tmp_path / "s")
+    assert math.isinf(table.beat_period[0]) or table.beat_period[0] > 0.0
+    assert np.isnan(table.power[1])
+    assert table_text(table) == (tmp_path / "s" / "results.csv").read_text()

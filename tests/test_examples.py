@@ -1,0 +1,44 @@
+"""Every example runs, asserts its own numbers, and makes the pictures the documentation shows."""
+
+import importlib.util
+
+import pytest
+
+from helpers import ROOT
+
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+IMAGES = ROOT / "docs" / "images"
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+TEXT = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
+#: Examples that draw nothing.
+WITHOUT_PICTURES = {"03_export.py"}
+LARGEST = 150e3  # bytes
+
+
+def load(path):
+    """Module of an example, not run as a script."""
+    spec = importlib.util.spec_from_file_location(f"example_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_example_runs_and_makes_the_pictures_of_the_docs(path, tmp_path, monkeypatch):
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.chdir(elsewhere)
+    load(path).main(tmp_path)
+    assert not list(elsewhere.iterdir())
+    made = sorted(tmp_path.glob("*.png"))
+    assert bool(made) != (path.name in WITHOUT_PICTURES)
+    for picture in made:
+        assert picture.stat().st_size < LARGEST
+        assert f"images/{picture.name}" in TEXT
+        assert (IMAGES / picture.name).is_file()
+
+
+def test_pictures_of_the_docs_are_small_and_shown():
+    for picture in IMAGES.iterdir():
+        assert picture.stat().st_size < LARGEST
+        assert f"images/{picture.name}" in TEXT
