@@ -154,7 +154,7 @@ def batch_table(
 ) -> pd.DataFrame:
     """Table with a row per item and a column per unit, whoever does the work."""
     check_workers(executor, workers, chunk)
-    if not isinstance(items, Iterable):
+    if not np.iterable(items):
         raise SettingsError(f"engines = {items!r}: must be a list of engines, or the like")
     parts = in_pieces(
         partial(rows_of, row_of),
