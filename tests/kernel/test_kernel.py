@@ -269,7 +269,7 @@ def test_keep_cycles_keeps_the_last_ones(base):
 def test_run_continues_identically_however_buffers_fill(base, monkeypatch):
     import importlib
 
-    module = importlib.import_module("saleg.simulate")
+    module = importlib.import_module("saleg.simulation.integration")
     whole = saleg.simulate(base, 0.3)
     monkeypatch.setattr(module, "STEPS_PER_CALL", 7)
     pieces = saleg.simulate(base, 0.3)

@@ -188,7 +188,7 @@ class RunningEngine:
         self = cls(engine, 0.0, y, machine, chambers, books, x)
         self._hold(_stroke_before(engine, start, self.piston_area))
         for side, held in enumerate(contents):
-            if held.burning:
+            if held.burning and held.fuel > 0.0:
                 self.ignite(side)
         acceleration = self.rates()[VELOCITY]
         machine.direction = float(np.sign(start.v) or np.sign(acceleration))

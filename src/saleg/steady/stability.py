@@ -10,7 +10,7 @@ import numpy as np
 
 from saleg.simulation.integration import Replay
 from saleg.simulation.run import read_only
-from saleg.steady.return_map import ReturnMap, is_symmetric, sealed_entries
+from saleg.steady.return_map import NoReturn, ReturnMap, is_symmetric, sealed_entries
 
 #: Tolerance of the integrator for differences of the map, which magnify its error.
 FINE = 1e-11
@@ -34,7 +34,8 @@ class Stability:
     kind : str
         "stable", or how stability is lost: "fold" (a real multiplier beyond +1), "asymmetric"
         (left and right grow apart), "period doubling" (beyond -1), "quasi-periodic" (a complex
-        pair: rhythmic stability, the orbit beats).
+        pair: rhythmic stability, the orbit beats), "no return" (the least disturbance stalls the
+        engine or drives it into a head; the multiplier is infinite).
     beat_period : float
         Time in which the phase of the leading pair comes round [s]; infinite if it is real.
     time_constant : float
@@ -71,7 +72,10 @@ def stability(replay: Replay, period: float) -> Stability:
     Stability
     """
     mirrored = is_symmetric(replay.engine)
-    return judged(map_multipliers(replay, mirrored), mirrored, period)
+    try:
+        return judged(map_multipliers(replay, mirrored), mirrored, period)
+    except NoReturn:
+        return Stability(np.array([complex(math.inf)]), "no return", math.inf, 0.0)
 
 
 def describe(found: Stability) -> str:
