@@ -197,8 +197,8 @@ class Performance:
         )
 
 
-#: Figures no engine built comes near: the highest diesels reach some 300 bar, compression ratios
-#: of 70 are known from single shots, racing engines have mean piston speeds of 27 m/s.
+#: Limits of what is plausible: a choice of ours without a source, well beyond every printed design
+#: (Tables 9 to 12: 237 bar, a compression ratio of 30, a mean piston speed of some 17 m/s).
 MOST_PRESSURE = 400e5
 MOST_COMPRESSION_RATIO = 80.0
 MOST_PISTON_SPEED = 30.0
