@@ -23,7 +23,14 @@ from saleg.engine import (
     SealedCylinder,
     Translator,
 )
-from saleg.errors import EngineFileError, InvalidEngine, LawError, SalegError, UnknownPath
+from saleg.errors import (
+    EngineFileError,
+    InvalidEngine,
+    LawError,
+    SalegError,
+    SalegWarning,
+    UnknownPath,
+)
 from saleg.simulation.integration import simulate
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
@@ -46,6 +53,7 @@ __all__ = [
     "Performance",
     "Run",
     "SalegError",
+    "SalegWarning",
     "SealedCylinder",
     "Status",
     "SteadyState",

@@ -3,9 +3,27 @@
 from __future__ import annotations
 
 import difflib
+import reprlib
 from collections.abc import Iterable
+from typing import Any, NamedTuple
 
-from saleg.quantities import Problem
+
+class Problem(NamedTuple):
+    """One field that is wrong, or unusual: where, what stands there, and what may."""
+
+    path: str
+    value: Any
+    unit: str
+    allowed: str
+
+    def __str__(self) -> str:
+        unit = "" if self.unit in ("", "-") else f" [{self.unit}]"
+        shown = reprlib.repr(self.value)
+        return f"{self.path} = {shown}{unit}: {self.allowed}"
+
+
+class SalegWarning(UserWarning):
+    """What is allowed, but is hardly what a user wants."""
 
 
 class SalegError(Exception):
@@ -48,6 +66,10 @@ class InvalidController(WrongFields):
     whole = "controller"
 
 
+class WrongQuantity(SalegError, ValueError):
+    """A field of a dataclass declared with a unit or a range that makes no sense."""
+
+
 class OutsideModel(WrongFields):
     """Quantities for which the fundamental model of Chapter 2 says nothing."""
 
@@ -59,6 +81,10 @@ class UnknownPath(SalegError, KeyError):
 
     def __str__(self) -> str:
         return str(self.args[0])
+
+
+class PathsClash(SalegError, ValueError):
+    """Two names for one number of an engine, both given in one call."""
 
 
 class EngineFileError(SalegError, ValueError):

@@ -5,9 +5,32 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-import reprlib
+from decimal import Decimal
 from functools import lru_cache
+from numbers import Integral, Real
 from typing import Any, NamedTuple
+
+from saleg.errors import Problem as Problem
+from saleg.errors import WrongQuantity
+
+
+class Quantities:
+    """Base of dataclasses of quantities: numbers become floats at the door, exactly.
+
+    So an engine given a ``Decimal`` or a ``float32`` equals its twin given the same value as a
+    float, and gives the same results. What is no real number stays, for :func:`problems` to name.
+    """
+
+    def __post_init__(self) -> None:
+        """Turn every number, and every number of a tuple, into a float."""
+        own: Any = type(self)
+        for field in _fields(own):
+            value = getattr(self, field.name)
+            kind = type(value)
+            if kind is not float and not hasattr(kind, "__dataclass_fields__"):
+                limits = field.metadata.get("limits")
+                whole = limits is not None and limits.kind is int
+                object.__setattr__(self, field.name, _whole(value) if whole else _plain(value))
 
 
 def quantity(
@@ -18,6 +41,8 @@ def quantity(
     high: float = math.inf,
     open_low: bool = False,
     open_high: bool = False,
+    usual: tuple[float, float] | None = None,
+    whole: bool = False,
 ) -> Any:
     """Declare a dataclass field that holds one number with a unit and an allowed range.
 
@@ -31,22 +56,34 @@ def quantity(
         Allowed range.
     open_low, open_high : bool
         Whether the end itself is excluded.
+    usual : (float, float), optional
+        Range of what has been built, generously; see :func:`unusual`. 0 is never unusual.
+    whole : bool
+        Whether it must be a whole number, which stays an int.
 
     Returns
     -------
     dataclasses.Field
         To be used as the right-hand side of an annotated class attribute.
 
+    Raises
+    ------
+    WrongQuantity
+        If the unit is not one line of text.
+
     Examples
     --------
     >>> from dataclasses import dataclass
     >>> @dataclass(frozen=True)
     ... class Rod:
-    ...     length: float = quantity("m", low=0, open_low=True)
+    ...     length: float = quantity("m", low=0, open_low=True, usual=(0.01, 3.0))
     >>> problems(Rod(-1.0), "rod")[0].path
     'rod.length'
+    >>> str(unusual(Rod(250.0))[0])
+    'length = 250.0 [m]: usually 0.01 to 3; it would be 0.25 if given in mm'
     """
-    limits = Limits(unit, float(low), float(high), open_low, open_high)
+    ends = float(low), float(high), open_low, open_high
+    limits = Limits(_checked_unit(unit), *ends, usual, int if whole else float)
     return dataclasses.field(default=default, metadata={"limits": limits})
 
 
@@ -89,6 +126,11 @@ def series(
     dataclasses.Field
         To be used as the right-hand side of an annotated class attribute.
 
+    Raises
+    ------
+    WrongQuantity
+        If the unit is not one line of text.
+
     Examples
     --------
     >>> from dataclasses import dataclass
@@ -98,7 +140,7 @@ def series(
     >>> str(problems(Profile((0.0, 2.0, 1.0)))[0])
     'x = (0.0, 2.0, 1.0) [m]: every number must be greater than the one before'
     """
-    limits = Limits(unit, float(low), float(high), False, False)
+    limits = Limits(_checked_unit(unit), float(low), float(high), False, False)
     shape = Shape(rising, never_falling, ends, at_least, length)
     return dataclasses.field(default=default, metadata={"limits": limits, "series": shape})
 
@@ -121,6 +163,8 @@ class Limits(NamedTuple):
     high: float
     open_low: bool
     open_high: bool
+    usual: tuple[float, float] | None = None
+    kind: type = float
 
     def __str__(self) -> str:
         above = f"{'>' if self.open_low else '>='} {self.low:g}"
@@ -141,29 +185,63 @@ class Limits(NamedTuple):
         return over and under
 
 
-class Problem(NamedTuple):
-    """One wrong field: where, what stands there, and what may."""
-
-    path: str
-    value: Any
-    unit: str
-    allowed: str
-
-    def __str__(self) -> str:
-        unit = "" if self.unit in ("", "-") else f" [{self.unit}]"
-        shown = reprlib.repr(self.value)
-        return f"{self.path} = {shown}{unit}: {self.allowed}"
+def _checked_unit(unit: Any) -> str:
+    if not isinstance(unit, str) or not unit.isprintable():
+        raise WrongQuantity(f"unit = {unit!r}: must be one line of text, such as 'N/m'")
+    return unit
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value is a plain real number (a bool is not)."""
-    if isinstance(value, (bool, str, bytes)):
-        return False
+    """Whether a value is a real number: no bool, no text, nothing complex."""
+    return as_float(value) is not None
+
+
+def as_float(value: Any) -> float | None:
+    """A real number of any type as a float, exactly; None for anything else.
+
+    Examples
+    --------
+    >>> from decimal import Decimal
+    >>> as_float(Decimal("0.25")), as_float(True), as_float("0.25")
+    (0.25, None, None)
+    """
+    if type(value) is float:
+        return value
+    value = _unpacked(value)
+    if isinstance(value, bool) or not isinstance(value, (Real, Decimal)):
+        return None
     try:
-        float(value)
-    except (TypeError, ValueError, OverflowError):
-        return False
-    return getattr(value, "ndim", 0) == 0
+        return float(value)
+    except (ValueError, OverflowError):
+        return None
+
+
+def is_whole(value: Any, low: float = -math.inf, high: float = math.inf) -> bool:
+    """Whether a value is a whole number (a bool is not) of a range, ends included."""
+    value = _whole(value)
+    return type(value) is int and low <= value <= high
+
+
+def _unpacked(value: Any) -> Any:
+    """The Python number in a number or an array without dimensions of numpy and its like."""
+    try:
+        return value.item() if getattr(value, "ndim", None) == 0 else value
+    except Exception:  # not of that kind
+        return value
+
+
+def _whole(value: Any) -> Any:
+    """A whole number of any type as an int; anything else as it is."""
+    plain = _unpacked(value)
+    return int(plain) if isinstance(plain, Integral) and not isinstance(plain, bool) else value
+
+
+def _plain(value: Any) -> Any:
+    """A number, or the numbers of a tuple, as floats; anything else as it is."""
+    if type(value) is tuple:
+        return tuple(_plain(item) for item in value)
+    number = as_float(value)
+    return value if number is None else number
 
 
 @lru_cache(maxsize=1024)
@@ -192,14 +270,15 @@ def problems(node: Any, path: str = "") -> list[Problem]:
     for field in _fields(kind):
         value = getattr(node, field.name)
         limits = field.metadata.get("limits")
-        if limits is not None and type(value) is float and limits.low < value < limits.high:
+        if limits is not None and type(value) is limits.kind and limits.low < value < limits.high:
             continue  # by far the most
         where = f"{path}.{field.name}" if path else field.name
         if "series" in field.metadata:
             found.extend(_series_problems(node, field, where))
         elif limits is not None:
-            if not is_number(value):
-                found.append(Problem(where, value, limits.unit, limits.wanted("a number")))
+            if not (is_number(value) if limits.kind is float else is_whole(value)):
+                wanted = "a number" if limits.kind is float else "a whole number"
+                found.append(Problem(where, value, limits.unit, limits.wanted(wanted)))
             elif not math.isfinite(value) or not limits.admits(float(value)):
                 need = "" if math.isfinite(value) else "a finite number"
                 found.append(Problem(where, value, limits.unit, limits.wanted(need)))
@@ -208,6 +287,56 @@ def problems(node: Any, path: str = "") -> list[Problem]:
         elif hasattr(node, "compiled") and not is_number(value):  # a law's record holds numbers
             found.append(Problem(where, value, "", "must be a number: a law holds numbers only"))
     return found
+
+
+#: Units a number may have been given in by mistake, the likeliest first: factor and offset to SI.
+GIVEN_IN = {
+    "m": (("mm", 1e-3, 0.0), ("cm", 1e-2, 0.0)),
+    "kg": (("g", 1e-3, 0.0),),
+    "s": (("ms", 1e-3, 0.0), ("us", 1e-6, 0.0)),
+    "K": (("degC", 1.0, 273.15),),
+    "Pa": (("bar", 1e5, 0.0), ("kPa", 1e3, 0.0), ("MPa", 1e6, 0.0)),
+    "N/m": (("kN/m", 1e3, 0.0), ("N/mm", 1e3, 0.0)),
+    "J/kg": (("MJ/kg", 1e6, 0.0), ("kJ/kg", 1e3, 0.0)),
+    "H": (("mH", 1e-3, 0.0), ("uH", 1e-6, 0.0)),
+}
+
+
+def unusual(node: Any, path: str = "") -> list[Problem]:
+    """List every number of a dataclass tree that is allowed but far from what has been built.
+
+    Parameters
+    ----------
+    node : dataclass instance
+        Root of the tree, without :func:`problems`.
+    path : str
+        Dotted path of the root, put before every field name.
+
+    Returns
+    -------
+    list of Problem
+        Each with the usual range and, if one fits, the unit the number may have been given in.
+    """
+    found: list[Problem] = []
+    kind: Any = type(node)
+    for field in _fields(kind):
+        limits, value = field.metadata.get("limits"), getattr(node, field.name)
+        where = f"{path}.{field.name}" if path else field.name
+        if limits is not None:
+            if limits.usual and value and not limits.usual[0] <= value <= limits.usual[1]:
+                found.append(Problem(where, value, limits.unit, _usual_text(value, limits)))
+        elif dataclasses.is_dataclass(value):
+            found.extend(unusual(value, where))
+    return found
+
+
+def _usual_text(value: float, limits: Limits) -> str:
+    low, high = limits.usual or (0.0, 0.0)
+    text = f"usually {low:g} to {high:g}"
+    for unit, factor, offset in GIVEN_IN.get(limits.unit, ()):
+        if low <= factor * value + offset <= high:
+            return f"{text}; it would be {factor * value + offset:g} if given in {unit}"
+    return text
 
 
 def _series_problems(node: Any, field: dataclasses.Field[Any], where: str) -> list[Problem]:

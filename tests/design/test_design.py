@@ -156,7 +156,7 @@ class JumpyRod:
 
 
 def test_an_open_loop_is_no_steady_state():
-    """No orbit has the mass of its components: the simulation's own verdict does not count."""
+    """No orbit has the mass of its components: the simulation's own outcome does not count."""
     found = saleg.design.evaluate(Design(masses=MassModel(rod=JumpyRod())))
     assert abs(found.mass_error) > 0.1
     assert found.status is Status.UNSTEADY

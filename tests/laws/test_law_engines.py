@@ -38,7 +38,7 @@ ENGINES = {
         **{
             "heat_transfer": laws.Chang(),
             "heat_release": laws.InstantRelease(),
-            "ignition": laws.IgnitionAtDeadCentre(),
+            "left.ignition": laws.IgnitionAtDeadCentre(),
             "right.ignition": laws.SparkAfterDelay(8.6e-3),
             "right.late_ignition": 1.0,
             "left.misfires": laws.ScheduledMisfires(first=3, count=1),

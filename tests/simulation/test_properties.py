@@ -3,11 +3,15 @@
 import math
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import saleg
 from saleg.engine.start import AtRest, CompressedCharge, MidpointVelocity
+
+# Many of them are unusual.
+pytestmark = pytest.mark.filterwarnings("ignore::saleg.SalegWarning")
 
 positions = st.floats(0.05, 0.99) | st.floats(-0.99, -0.05)
 starts = st.one_of(

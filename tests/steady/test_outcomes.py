@@ -49,7 +49,7 @@ def asymmetric(base, count, seed, spread=0.35):
         yield engine
 
 
-def test_the_verdict_does_not_depend_on_the_side(base):
+def test_the_outcome_does_not_depend_on_the_side(base):
     for engine in asymmetric(base, 60, seed=1):
         there, here = (saleg.steady_state(one, rtol=1e-8) for one in (engine, mirror_image(engine)))
         assert there.status is here.status, (there.message, here.message)

@@ -11,13 +11,20 @@ import numpy as np
 from saleg.batch.table import CHUNK, Row, in_pieces, rows_of, table_of
 from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
-from saleg.engine import Engine
-from saleg.simulation.integration import simulate
+from saleg.engine import Engine, check_engine
+from saleg.simulation.initial_state import prepare
+from saleg.simulation.integration import integrate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance
-from saleg.simulation.settings import Settings
+from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
-from saleg.steady.solver import Effort, SteadyState, check_effort, check_tolerance, steady_state
+from saleg.steady.solver import (
+    Effort,
+    SteadyState,
+    check_effort,
+    check_tolerance,
+    found_steady_state,
+)
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -93,8 +100,9 @@ def steady_states(
     >>> list(table.status)
     ['steady', 'steady']
     """
-    check_tolerance(rtol)
+    rtol = check_tolerance(rtol)
     check_effort(effort)
+    check_flag("multipliers", multipliers)
     row_of = partial(_steady_row, rtol=rtol, multipliers=multipliers, effort=effort)
     units = STABILITY_UNITS if multipliers else STEADY_UNITS
     return batch_table(row_of, engines, units, kernel_for, executor, workers, chunk)
@@ -126,8 +134,7 @@ def simulate_many(
     DataFrame
         One row per engine, in order: status, message and the figures of the last cycle.
     """
-    Settings(duration, **settings).checked()
-    row_of = partial(_run_row, duration=duration, settings=settings)
+    row_of = partial(_run_row, settings=Settings(duration, **settings).checked())
     return batch_table(row_of, engines, RUN_UNITS, kernel_for, executor, workers, chunk)
 
 
@@ -142,6 +149,8 @@ def batch_table(
 ) -> pd.DataFrame:
     """Table with a row per item and a column per unit, whoever does the work."""
     check_workers(executor, workers, chunk)
+    if not np.iterable(items):
+        raise SettingsError(f"engines = {items!r}: must be a list of engines, or the like")
     parts = in_pieces(
         partial(rows_of, row_of),
         items,
@@ -156,14 +165,15 @@ def batch_table(
 
 def _steady_row(engine: Engine, rtol: float, multipliers: bool, effort: Effort) -> Row:
     """Row of a steady state."""
-    return steady_row(steady_state(engine, rtol=rtol, effort=effort), multipliers)
+    return steady_row(found_steady_state(engine, rtol, effort=effort), multipliers)
 
 
 def steady_row(
     found: SteadyState, multipliers: bool, performance: Performance | None = None
 ) -> Row:
     """Row of a steady state found or not; figures of the orbit unless others are given."""
-    row = _row(found.status, found.message, performance or found.quick_performance)
+    message = "; ".join([found.message, *_odd(found.engine, found.remarks)])
+    row = _row(found.status, message, performance or found.quick_performance)
     row["method"] = found.method
     row["half_cycles"] = float(found.half_cycles)
     row["evaluations"] = float(found.evaluations)
@@ -178,16 +188,25 @@ def steady_row(
     return row
 
 
-def _run_row(engine: Engine, duration: float, settings: Mapping[str, Any]) -> Row:
+def _run_row(engine: Engine, settings: Settings) -> Row:
     """Row of a run."""
-    return run_row(simulate(engine, duration, **settings))
+    check_engine(engine)
+    return run_row(integrate(engine, prepare(engine), settings))
 
 
 def run_row(run: Run) -> Row:
     """Row of a run: how it ended and the figures of its last cycle."""
-    row = _row(run.status, run.message, run.performance)
+    message = "; ".join([run.message, *_odd(run.engine, run.remarks)])
+    row = _row(run.status, message, run.performance)
     row["evaluations"] = float(run.evaluations)
     return row
+
+
+def _odd(engine: Engine, remarks: list[str]) -> list[str]:
+    """What a single run warns of or remarks on; in a table the message of its row says it."""
+    return [f"unusual: {problem}" for problem in engine.unusual()] + [
+        f"beyond what is built: {remark}" for remark in remarks
+    ]
 
 
 def _row(status: Status, message: str, performance: Performance) -> Row:

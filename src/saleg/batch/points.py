@@ -30,6 +30,9 @@ class Evaluated(Protocol):
     def unit(self, name: str) -> str:
         """Unit of an input; raises UnknownPath if there is none of that name."""
 
+    def refuse_clash(self, names: Iterable[str]) -> None:
+        """Refuse inputs of which two stand for one number; raises PathsClash."""
+
 
 class Evaluation:
     """Evaluation of a table of inputs.
@@ -56,6 +59,8 @@ class Evaluation:
         If the points are no table of numbers by name.
     UnknownPath
         If there is no input of that name.
+    PathsClash
+        If two inputs stand for one number.
     WorkersError
         If nobody could do the work so.
     """
@@ -140,3 +145,4 @@ def _check(points: pd.DataFrame, evaluated: Evaluated) -> None:
         evaluated.unit(str(name))
         if not all(is_number(value) for value in points[name]):
             raise SweepError(f"{name}: every value of an input must be a number")
+    evaluated.refuse_clash(map(str, points))

@@ -15,9 +15,9 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import nullcontext
-from numbers import Integral
 from typing import TypeVar
 
+from saleg.quantities import is_whole
 from saleg.simulation.settings import SettingsError
 
 Piece = TypeVar("Piece")
@@ -41,7 +41,7 @@ def check_workers(executor: Executor | None, workers: int | None, chunk: int = 1
     WorkersError
     """
     for name, value in (("workers", 1 if workers is None else workers), ("chunk", chunk)):
-        if not isinstance(value, Integral) or isinstance(value, bool) or not 1 <= value < 2**31:
+        if not is_whole(value, 1, 2**31 - 1):
             raise WorkersError(f"{name} = {value!r}: must be a whole number >= 1")
     if executor is not None and (
         isinstance(executor, type) or not callable(getattr(executor, "submit", None))

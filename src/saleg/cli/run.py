@@ -85,6 +85,8 @@ def changed(engine: Engine, assignments: list[str]) -> Engine:
         path, equals, value = (part.strip() for part in text.partition("="))
         if not path or not equals or not value:
             raise CommandError(f"--set {text}: must be PATH=VALUE, such as bore=0.06")
+        if path in changes:
+            raise CommandError(f"--set {path}: given twice")
         changes[path] = _value(engine, path, value)
     return engine.replace(**changes)
 

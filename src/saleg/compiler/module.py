@@ -50,12 +50,19 @@ def load(text: str, kind: str, folder: Path | None, names: dict[str, Any] | None
         number = next(_numbers)
         stem, filename = f"saleg_{kind}_{number}", f"<saleg {kind} {number}>"
         return Loaded(_execute(text, stem, filename, names), None)
-    path = folder / f"saleg_{kind}_{digest(text)}.py"
+    path = _free(folder / f"saleg_{kind}_{digest(text)}.py")
     lock = path.with_suffix(".lock")
     with locked(lock):
         if not path.is_file() or path.read_bytes() != text.encode():
             write_text(path, text, mode=0o600)
         return Loaded(_execute(text, path.stem, str(path), names), lock)
+
+
+def _free(path: Path) -> Path:
+    """A path, or one beside it if somebody has put a folder there or in place of its lock."""
+    while path.is_dir() or path.with_suffix(".lock").is_dir():
+        path = path.with_stem(f"{path.stem}_")
+    return path
 
 
 def digest(text: str) -> str:

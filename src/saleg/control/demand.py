@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from saleg.errors import InvalidController
-from saleg.quantities import Problem, is_number, problems, series
+from saleg.errors import ControllerError, InvalidController
+from saleg.files.reading import read_text
+from saleg.quantities import Problem, Quantities, problems, series
 
 
 @dataclass(frozen=True)
-class Demand:
+class Demand(Quantities):
     """Power demanded over time: linear between the times, constant before and after.
 
     Parameters
@@ -23,6 +23,11 @@ class Demand:
         Never falling [s]; two equal ones make a step.
     powers : tuple of float
         Power at those times [W].
+
+    Raises
+    ------
+    InvalidController
+        If the numbers make no profile.
 
     Examples
     --------
@@ -33,15 +38,22 @@ class Demand:
     times: tuple[float, ...] = series("s", never_falling=True)
     powers: tuple[float, ...] = series("W", low=0, length="times")
 
+    def __post_init__(self) -> None:
+        """Check both series."""
+        super().__post_init__()
+        found = problems(self, "demand")
+        if found:
+            raise InvalidController(found)
+
     @classmethod
     def step(cls, at: float, before: float, after: float) -> Demand:
         """A step at a time [s] from one power to another [W]."""
-        return cls.of((at, at), (before, after))
+        return cls((at, at), (before, after))
 
     @classmethod
     def ramp(cls, begin: float, end: float, before: float, after: float) -> Demand:
         """A ramp between two times [s] from one power to another [W]."""
-        return cls.of((begin, end), (before, after))
+        return cls((begin, end), (before, after))
 
     @classmethod
     def of(cls, times: Sequence[float], powers: Sequence[float]) -> Demand:
@@ -52,20 +64,7 @@ class Demand:
         InvalidController
             If the numbers make no profile.
         """
-        columns = []
-        for name, values in (("times", times), ("powers", powers)):
-            flat = list(np.ravel(np.asarray(values, dtype=object)))
-            wrong = [value for value in flat if not is_number(value)]
-            if wrong:
-                raise InvalidController(
-                    [Problem(f"demand.{name}", wrong[0], "-", "must be a number")]
-                )
-            columns.append(tuple(float(value) for value in flat))
-        made = cls(*columns)
-        found = problems(made, "demand")
-        if found:
-            raise InvalidController(found)
-        return made
+        return cls(*(tuple(np.ravel(np.asarray(item, dtype=object))) for item in (times, powers)))
 
     @classmethod
     def read(cls, path: str | Path) -> Demand:
@@ -75,26 +74,23 @@ class Demand:
 
         Raises
         ------
+        ControllerError
+            If the file cannot be read.
         InvalidController
             Naming the line that cannot be read.
         """
-        try:
-            text = Path(path).read_text(encoding="utf-8")
-        except UnicodeDecodeError as error:
-            problem = Problem(str(path), str(error), "", "must be text in UTF-8")
-            raise InvalidController([problem]) from None
+        lines = read_text(path, ControllerError).splitlines()
         times, powers = [], []
-        for number, row in enumerate(csv.reader(text.splitlines()), start=1):
-            if not row:
+        for number, line in enumerate(lines, start=1):
+            row = line.split(",")
+            if not line.strip():
                 continue
             try:
-                t, power = (float(value) for value in row)
+                t, power = (float(value.strip().strip('"')) for value in row)
             except ValueError:
                 if number > 1:
-                    where = f"{path}, line {number}"
-                    raise InvalidController(
-                        [Problem(where, ",".join(row), "", "must be two numbers")]
-                    ) from None
+                    problem = Problem(f"{path}, line {number}", line, "", "must be two numbers")
+                    raise InvalidController([problem]) from None
                 continue
             times.append(t)
             powers.append(power)

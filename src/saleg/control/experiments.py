@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.control.running import motor_returns, simulate, simulate_many
-from saleg.engine import Engine
+from saleg.engine import Engine, check_controller, check_engine
 from saleg.engine.controller import Controller
 from saleg.engine.start import AtRest
 from saleg.laws.control.fuel import FuelCut
@@ -69,6 +69,7 @@ def motored(
     import pandas as pd
 
     pairs = np.broadcast_arrays(*(np.atleast_1d(v) for v in (frequencies, amplitudes)))
+    check_engine(engine)
     at_rest = engine.replace(start=AtRest())
     controllers = [
         Controller(
@@ -140,7 +141,8 @@ def start_up(
     >>> round(saleg.control.fired_at(run), 2)
     0.49
     """
-    chosen = controller or Controller()
+    chosen = Controller() if controller is None else controller
+    check_controller(chosen)
     search = chosen.motor_control
     if isinstance(search, ResonanceSearch):
         chosen = replace(chosen, motor_control=replace(search, base_frequency=base_frequency))
@@ -164,6 +166,7 @@ def rapid_start(**parts: Any) -> Controller:
 
 def _from_rest(engine: Engine, controller: Controller, duration: float, settings: Any) -> Run:
     """Run that begins at rest at the midpoint, whatever the engine's own start."""
+    check_engine(engine)
     return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from saleg.control.outcome import blamed, controlled_outcome, fault_message
 from saleg.control.sensors import measured
-from saleg.engine import Engine
+from saleg.engine import Engine, check_controller, check_engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
 from saleg.kernel import layout
@@ -70,6 +70,7 @@ class Plant:
     ):
         controller = Controller(actuators=actuators or Actuators())
         self._begin(course_of(engine, controller, duration, layout.IN_PYTHON, settings))
+        warn_of_unusual(engine)
 
     @classmethod
     def _again(cls, course: Course) -> Plant:
@@ -235,8 +236,8 @@ def course_of(
 ) -> Course:
     """A run about to begin, under a controller."""
     known = Settings(duration, **{"stall_stroke": 0.0, **settings}).checked()
-    engine.validate()
-    controller.validate()
+    check_engine(engine)
+    check_controller(controller)
     engine.check_laws()
     controller.check_laws()
     state = prepare(engine)

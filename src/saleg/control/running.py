@@ -15,13 +15,13 @@ from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
 from saleg.control.plant import InPython, Plant, course_of, give
 from saleg.control.sensors import Measurement, Sensors, measured
-from saleg.engine import Engine
+from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
 from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import ActuatorLaw
-from saleg.quantities import is_number
+from saleg.quantities import as_float
 from saleg.simulation.run import Run
 from saleg.simulation.settings import SettingsError
 
@@ -105,6 +105,10 @@ def simulate(
     """
     laws = isinstance(controller, Controller)
     in_python = sensors is not None or sample_time is not None
+    if sensors is not None and not isinstance(sensors, Sensors):
+        raise SettingsError(f"sensors = {sensors!r}: must be a saleg.control.Sensors")
+    if compiled is not None and not isinstance(compiled, (bool, np.bool_)):
+        raise SettingsError(f"compiled = {compiled!r}: must be True, False or None")
     if compiled is None:
         compiled = laws and not in_python
     if compiled and (in_python or not laws):
@@ -112,12 +116,11 @@ def simulate(
     if laws and actuators is not None:
         raise SettingsError("actuators: a Controller has its own; replace those")
     if compiled and isinstance(controller, Controller):
-        return _compiled(engine, controller, duration, settings)
-    if sample_time is not None and (
-        not is_number(sample_time) or not MAX_SAMPLES * sample_time >= duration > 0.0
-    ):
-        least = duration / MAX_SAMPLES if is_number(duration) else 0.0
-        raise SettingsError(f"sample_time = {sample_time!r}: must be a number >= {least:g} [s]")
+        run = _compiled(engine, controller, duration, settings)
+        warn_of_unusual(engine)
+        return run
+    if sample_time is not None:
+        sample_time = _checked_sample_time(sample_time, duration)
     acting: Acts
     if isinstance(controller, Controller):
         controller.validate()
@@ -129,6 +132,15 @@ def simulate(
     plant = Plant(engine, duration, actuators=actuators, **settings)
     measurement = Measurement(sensors or Sensors(), engine)
     return _in_python(plant, acting, measurement if sensors else None, sample_time)
+
+
+def _checked_sample_time(sample_time: float, duration: float) -> float:
+    """An interval as a float; refused if there were too many of them."""
+    interval, lasts = as_float(sample_time), as_float(duration)
+    least = (lasts or 0.0) / MAX_SAMPLES
+    if interval is None or not interval >= least or not interval > 0.0:
+        raise SettingsError(f"sample_time = {sample_time!r}: must be a number >= {least:g} [s]")
+    return interval
 
 
 def _compiled(engine: Engine, controller: Controller, duration: float, settings: Any) -> Run:
@@ -269,7 +281,7 @@ def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
 
 def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any) -> Row:
     """Row of a run under a controller."""
-    run = simulate(pair[0], pair[1], duration, compiled=True, **settings)
+    run = _compiled(pair[0], pair[1], duration, settings)
     return {
         **run_row(run),
         "fired_at": fired_at(run),

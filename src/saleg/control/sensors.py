@@ -13,12 +13,12 @@ from saleg.errors import InvalidController
 from saleg.kernel import layout
 from saleg.kernel.control import write_signals
 from saleg.laws.arguments import Signals, Stroke
-from saleg.quantities import Problem, problems, quantity
+from saleg.quantities import Quantities, problems, quantity
 from saleg.simulation.initial_state import State
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sensors:
+class Sensors(Quantities):
     """Errors of measurement. Stroke, compression ratio and regulator follow from what is measured.
 
     The load weight the alternator's regulator (Eq. 59) asks for is that of the stroke measured.
@@ -46,8 +46,8 @@ class Sensors:
     time_resolution: float = quantity("s", default=0.0, low=0)
     power_noise: float = quantity("W", default=0.0, low=0)
     power_resolution: float = quantity("W", default=0.0, low=0)
-    delay: int = quantity("-", default=0, low=0, high=10_000)
-    seed: int = quantity("-", default=0, low=0)
+    delay: int = quantity("-", default=0, low=0, high=10_000, whole=True)
+    seed: int = quantity("-", default=0, low=0, whole=True)
 
     def validate(self) -> None:
         """Raise one error naming every wrong field.
@@ -57,10 +57,6 @@ class Sensors:
         InvalidController
         """
         found = problems(self, "sensors")
-        for name in ("delay", "seed"):
-            value = getattr(self, name)
-            if not isinstance(value, (int, np.integer)):
-                found.append(Problem(f"sensors.{name}", value, "-", "must be a whole number"))
         if found:
             raise InvalidController(found)
 

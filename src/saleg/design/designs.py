@@ -12,12 +12,12 @@ from saleg.design.formulas import port_clearance
 from saleg.design.masses import MassModel
 from saleg.design.parameters import Parameters
 from saleg.engine import Cylinder, Engine
-from saleg.engine.paths import exists, known_paths, unit_of, with_value
+from saleg.engine.paths import claimed, exists, known_paths, unit_of, with_value
 from saleg.engine.paths import get as get_path
 from saleg.errors import UnknownPath, WrongFields, nearest
 from saleg.laws import BlairViscousFriction
 from saleg.machines import thesis_base
-from saleg.quantities import Problem, is_number, problems
+from saleg.quantities import Problem, as_float, is_number, problems
 
 MASSES = "masses"
 NAMES = tuple(item.name for item in fields(Parameters))
@@ -137,7 +137,7 @@ class Design:
         limits = item.metadata.get("limits")
         return "-" if limits is None else str(limits.unit)
 
-    def replace(self, values: Mapping[str, Any] | None = None, **more: Any) -> Design:
+    def replace(self, values: Mapping[str, Any] | None = None, /, **more: Any) -> Design:
         """Copy with some values replaced.
 
         Parameters
@@ -154,19 +154,26 @@ class Design:
         ------
         UnknownPath
             With the nearest existing names; or if the eight parameters decide about that path.
+        PathsClash
+            If two names stand for one number.
         """
         changes = {**(values or {}), **more}
         own = {name: value for name, value in changes.items() if name in NAMES}
         design = dataclasses.replace(self, parameters=dataclasses.replace(self.parameters, **own))
+        named: dict[tuple[str, ...], str] = {}
         for path, value in changes.items():
             if path not in NAMES:
-                design = design._with(path, value)
+                design = design._with(path, value, named)
         return design
 
-    def _with(self, path: str, value: Any) -> Design:
+    def _with(self, path: str, value: Any, named: dict[tuple[str, ...], str]) -> Design:
+        """Copy with one value replaced; `named` has the paths of the engine replaced before."""
         _, chain = self._place(path)
+        number = as_float(value)
+        value = value if number is None else number
         if chain is not None:
             return dataclasses.replace(self, masses=with_value(self.masses, chain, value))
+        claimed(named, self.laws, path)
         changed = dataclasses.replace(self, laws=self.laws.replace(**{path: value}))
         if is_number(value) and get_path(changed.engine(math.nan), path) is not value:
             raise UnknownPath(

@@ -20,7 +20,7 @@ from saleg.design.designs import Design, InvalidDesign
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 from saleg.design.results import DesignedState
-from saleg.engine import Engine, Translator
+from saleg.engine import Engine, Translator, warn_of_unusual
 from saleg.engine.start import CompressedCharge
 from saleg.kernel import layout
 from saleg.kernel.orbit import read_vector, write_vector
@@ -113,7 +113,7 @@ def solve(
     >>> round(found.moving_mass, 2), abs(found.mass_error) < 1e-6
     (2.38, True)
     """
-    check_tolerance(rtol)
+    rtol = check_tolerance(rtol)
     check_effort(effort)
     check_design(design)
     design.validate()
@@ -194,7 +194,9 @@ def evaluate(
     """
     design = Design() if design is None else design
     check_design(design)
-    return solve(design.replace(values), rtol=rtol, effort=effort)
+    found = solve(design.replace(values), rtol=rtol, effort=effort)
+    warn_of_unusual(found.engine)
+    return found
 
 
 def check_design(design: Any) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
@@ -80,6 +80,10 @@ class EvaluatedDesign:
         refuse_parts(name, self.design.get(name))
         self.design.replace({name: float("nan")})  # an object of its own, to be found again
         return unit
+
+    def refuse_clash(self, names: Iterable[str]) -> None:
+        """Refuse inputs of which two stand for one number."""
+        self.design.replace(dict.fromkeys(names, math.nan))
 
     def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> DesignSolver:
         """What makes a row of a point; may remember the point before."""

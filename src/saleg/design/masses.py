@@ -14,7 +14,7 @@ from saleg.design import formulas
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 from saleg.errors import SalegError
-from saleg.quantities import is_number, quantity
+from saleg.quantities import Quantities, is_number, quantity
 
 
 class InvalidMass(SalegError, ValueError):
@@ -41,7 +41,7 @@ class SizedMover(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class AlternatorMover:
+class AlternatorMover(Quantities):
     """Tubular magnet mover sized for the steady state (Eq. 60).
 
     ``m = rho pi/4 (D_o^2 - D_i^2) 2 S`` with pole pitch and half length equal to the stroke.
@@ -107,7 +107,7 @@ class PistonHeads:
 
 
 @dataclass(frozen=True)
-class ConnectingRod:
+class ConnectingRod(Quantities):
     """Rod from piston to piston (Eq. 62, 63, 66).
 
     Parameters
@@ -133,7 +133,7 @@ class ConnectingRod:
 
 
 @dataclass(frozen=True)
-class MechanicalSprings:
+class MechanicalSprings(Quantities):
     """Springs whose moving mass grows with their stiffness (Eq. 67).
 
     Parameters

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from saleg.quantities import quantity
+from saleg.quantities import Quantities, quantity
 
 
 @dataclass(frozen=True, kw_only=True)
-class Parameters:
+class Parameters(Quantities):
     """What defines a design (Table 8); the defaults are the base case of Table 1.
 
     Parameters

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from saleg.errors import WrongFields
-from saleg.quantities import Problem, problems, quantity
+from saleg.quantities import Problem, Quantities, problems, quantity
 
 
 class InvalidScore(WrongFields):
@@ -29,7 +29,7 @@ WEIGHED = ("efficiency", "stability", "compression_ratio", "peak_pressure")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Score:
+class Score(Quantities):
     """Weighted mean of how well targets and constraints are met; without a target power.
 
     Parameters
@@ -73,6 +73,7 @@ class Score:
         ------
         InvalidScore
         """
+        super().__post_init__()
         found = problems(self)
         if not found and not sum(self._weights.values()) > 0.0:
             found = [Problem("efficiency", 0.0, "-", "one of the four weights must be > 0")]

@@ -11,8 +11,8 @@ from saleg.engine.chambers import (
     SealedCylinder,
     Translator,
 )
-from saleg.engine.controller import Controller
-from saleg.engine.engine import Engine
+from saleg.engine.controller import Controller, check_controller
+from saleg.engine.engine import Engine, check_engine, warn_of_unusual
 
 __all__ = [
     "BounceChamber",
@@ -26,4 +26,7 @@ __all__ = [
     "ReferenceState",
     "SealedCylinder",
     "Translator",
+    "check_controller",
+    "check_engine",
+    "warn_of_unusual",
 ]

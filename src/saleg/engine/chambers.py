@@ -25,11 +25,19 @@ from saleg.laws.base import (
     Law,
     Misfires,
 )
-from saleg.quantities import quantity
+from saleg.quantities import Quantities, quantity
+
+#: Ranges of what has been built, from a bore of 3 mm to ship engines and gas springs; a value
+#: outside is allowed but likely in another unit.
+LENGTH = 1e-4, 3.0
+MASS = 1e-4, 1e3
+PRESSURE = 1e4, 2e7
+TEMPERATURE = 200.0, 1500.0
+HEATING_VALUE = 1e6, 2e8
 
 
 @dataclass(frozen=True)
-class Translator:
+class Translator(Quantities):
     """The moving part: pistons, rod, alternator mover and the springs' share.
 
     Parameters
@@ -38,11 +46,11 @@ class Translator:
         Total moving mass [kg].
     """
 
-    mass: float = quantity("kg", low=0, open_low=True)
+    mass: float = quantity("kg", low=0, open_low=True, usual=MASS)
 
 
 @dataclass(frozen=True)
-class Intake:
+class Intake(Quantities):
     """State of the intake manifold.
 
     Parameters
@@ -53,12 +61,12 @@ class Intake:
         Intake temperature [K].
     """
 
-    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True)
-    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0)
+    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True, usual=PRESSURE)
+    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0, usual=TEMPERATURE)
 
 
 @dataclass(frozen=True)
-class Fuel:
+class Fuel(Quantities):
     """Fuel; the defaults stand for methane (3.4).
 
     Parameters
@@ -69,7 +77,9 @@ class Fuel:
         Stoichiometric air-fuel ratio by mass [-].
     """
 
-    lower_heating_value: float = quantity("J/kg", default=48e6, low=0, open_low=True)
+    lower_heating_value: float = quantity(
+        "J/kg", default=48e6, low=0, open_low=True, usual=HEATING_VALUE
+    )
     air_fuel_ratio: float = quantity("-", default=17.5, low=0, open_low=True)
 
 
@@ -90,7 +100,7 @@ class ReferenceState(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Chamber:
+class Chamber(Quantities):
     """What all chambers have in common.
 
     Parameters
@@ -105,8 +115,8 @@ class Chamber:
         Clearance at which the run ends with head contact [m].
     """
 
-    bore: float = quantity("m", low=0, open_low=True)
-    half_stroke: float = quantity("m", low=0, open_low=True)
+    bore: float = quantity("m", low=0, open_low=True, usual=LENGTH)
+    half_stroke: float = quantity("m", low=0, open_low=True, usual=LENGTH)
     wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0)
     head_gap: float = quantity("m", default=1e-4, low=0, open_low=True)
 
@@ -167,7 +177,7 @@ class Cylinder(CombustionChamber):
     intake : Intake
     """
 
-    port_closing: float = quantity("m", low=0, open_low=True)
+    port_closing: float = quantity("m", low=0, open_low=True, usual=LENGTH)
     intake: Intake = field(default_factory=Intake)
 
     @property
@@ -193,8 +203,8 @@ class SealedCylinder(CombustionChamber):
         Exponent n of the curve fresh charges lie on [-]; the ratio of specific heats in 2.3.
     """
 
-    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True)
-    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0)
+    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True, usual=PRESSURE)
+    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0, usual=TEMPERATURE)
     curve_exponent: float = quantity("-", default=1.4, low=1, open_low=True)
 
     @property
@@ -217,8 +227,8 @@ class BounceChamber(Chamber):
         The laws in the chamber's slots.
     """
 
-    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True)
-    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0)
+    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True, usual=PRESSURE)
+    temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0, usual=TEMPERATURE)
     gas_properties: GasProperties = field(default_factory=ChangGas)
     heat_transfer: HeatTransfer = field(default_factory=NoHeatTransfer)
 

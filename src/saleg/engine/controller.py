@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from saleg.errors import InvalidController
 from saleg.laws.base import Law
@@ -96,3 +97,16 @@ class Controller:
             Naming law and method.
         """
         check_laws([*self.laws.values(), self.actuators])
+
+
+def check_controller(controller: Any) -> None:
+    """Raise one error unless there is a valid controller.
+
+    Raises
+    ------
+    InvalidController
+    """
+    if not isinstance(controller, Controller):
+        wrong = Problem("controller", controller, "-", "must be a saleg.Controller")
+        raise InvalidController([wrong])
+    controller.validate()

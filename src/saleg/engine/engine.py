@@ -6,7 +6,8 @@ Everything is a frozen dataclass of numbers in SI units; nothing here computes. 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -14,11 +15,11 @@ from typing import Any
 from saleg.engine import paths
 from saleg.engine.chambers import Chamber, CombustionChamber, Fuel, Intake, Translator
 from saleg.engine.start import CompressedCharge, Start
-from saleg.errors import InvalidEngine
+from saleg.errors import InvalidEngine, SalegWarning
 from saleg.laws import Law, LinearLoad, LinearSprings, ViscousFriction
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
 from saleg.laws.contract import check_laws
-from saleg.quantities import Problem, is_number, problems
+from saleg.quantities import Problem, is_number, problems, unusual
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,10 @@ class Engine:
     @property
     def is_mirrored(self) -> bool:
         """Whether both chambers are alike."""
-        return self.left == self.right
+        try:
+            return bool(self.left == self.right)
+        except Exception:  # arrays and the like where numbers should be: `problems` names them
+            return False
 
     @property
     def chambers(self) -> tuple[Chamber, Chamber]:
@@ -124,15 +128,16 @@ class Engine:
         """
         return paths.get(self, path)
 
-    def replace(self, **changes: Any) -> Engine:
+    def replace(self, /, **changes: Any) -> Engine:
         """Copy of the engine with some values, laws or parts replaced.
 
         Parameters
         ----------
         **changes
             New values (SI) by dotted path; paths with dots are passed as
-            ``**{"intake.temperature": 300.0}``. A path of a cylinder changes both sides unless
-            ``left.`` or ``right.`` stands before it.
+            ``**{"intake.temperature": 300.0}``. A path of a chamber changes both sides unless
+            ``left.`` or ``right.`` stands before it; where only one of them is a cylinder, it
+            is the cylinder's. A law and one of its numbers may be given together.
 
         Returns
         -------
@@ -143,6 +148,9 @@ class Engine:
         ------
         UnknownPath
             With the nearest existing names.
+        PathsClash
+            If two names stand for one number: ``egr`` and ``gas_exchange.egr``, or ``bore`` and
+            ``left.bore``.
         """
         return paths.replace(self, changes)
 
@@ -151,13 +159,24 @@ class Engine:
         found = _slot_problems(self)
         if found:
             return found
-        for part in ("translator", "springs", "friction", "alternator", "start"):
-            found += problems(getattr(self, part), part)
+        return self._each_part(problems) + _geometry_problems(self)
+
+    def unusual(self) -> list[Problem]:
+        """Every number of a valid engine that is far from what has been built.
+
+        Each names the usual range and, if one fits, the unit the number may have been given in.
+        """
+        return self._each_part(unusual)
+
+    def _each_part(self, look: Callable[[Any, str], list[Problem]]) -> list[Problem]:
+        """What is found in the parts, with their paths; chambers that are alike count once."""
+        names = ["translator", "springs", "friction", "alternator", "start"]
+        parts = [(name, getattr(self, name)) for name in names]
         if self.is_mirrored:
-            found += problems(self.left)
+            parts.append(("", self.left))
         else:
-            found += problems(self.left, "left") + problems(self.right, "right")
-        return found + _geometry_problems(self)
+            parts += [("left", self.left), ("right", self.right)]
+        return [problem for path, part in parts for problem in look(part, path)]
 
     def validate(self) -> None:
         """Raise one error naming every wrong field.
@@ -212,6 +231,27 @@ class Engine:
         from saleg.engine.toml import read_toml
 
         return read_toml(path, laws)
+
+
+def check_engine(engine: Any) -> None:
+    """Raise one error unless there is a valid engine.
+
+    Raises
+    ------
+    InvalidEngine
+    """
+    if not isinstance(engine, Engine):
+        raise InvalidEngine([Problem("engine", engine, "-", "must be a saleg.Engine")])
+    engine.validate()
+
+
+def warn_of_unusual(engine: Engine) -> None:
+    """Warn once of all numbers of a valid engine that are far from what has been built."""
+    found = engine.unusual()
+    if found:
+        lines = "\n".join(f"  {problem}" for problem in found)
+        # The line of the user's: beyond this one and the function it is called in.
+        warnings.warn(f"unusual for an engine:\n{lines}", SalegWarning, stacklevel=3)
 
 
 _CHAMBER_PARTS: dict[str, type] = {**CHAMBER_SLOTS, "intake": Intake, "fuel": Fuel}

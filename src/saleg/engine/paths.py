@@ -6,7 +6,8 @@ import dataclasses
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
 
-from saleg.errors import UnknownPath, nearest
+from saleg.engine.chambers import Chamber, CombustionChamber
+from saleg.errors import PathsClash, UnknownPath, nearest
 
 #: An engine: a tree of dataclasses with a left and a right chamber.
 Tree = TypeVar("Tree")
@@ -23,6 +24,8 @@ CHAMBER_ALIASES = {
 
 def get(engine: Any, path: str) -> Any:
     """Value at a dotted path; of a mirrored engine's cylinder, the left one's.
+
+    Where only one chamber is a cylinder, it is the cylinder's.
 
     Raises
     ------
@@ -59,12 +62,21 @@ def unit_of(engine: Any, path: str) -> str:
 
 
 def replace(engine: Tree, changes: Mapping[str, Any]) -> Tree:
-    """Copy of an engine with the values at some dotted paths replaced."""
+    """Copy of an engine with the values at some dotted paths replaced.
+
+    Raises
+    ------
+    UnknownPath
+        With the nearest existing names.
+    PathsClash
+        If two paths lead to one place.
+    """
     unknown = []
+    named: dict[tuple[str, ...], str] = {}
     # Whole parts first, so that a law and one of its numbers can be changed in one call.
     for path in sorted(changes, key=_depth):
         try:
-            found = _targets(engine, path)
+            found = claimed(named, engine, path)
         except UnknownPath as error:
             unknown.append(str(error))
             continue
@@ -73,6 +85,23 @@ def replace(engine: Tree, changes: Mapping[str, Any]) -> Tree:
     if unknown:
         raise UnknownPath("\n".join(unknown))
     return engine
+
+
+def claimed(named: dict[tuple[str, ...], str], engine: Any, path: str) -> list[tuple[str, ...]]:
+    """Places a path leads to, noted in `named`; refused if another path has led there before.
+
+    Raises
+    ------
+    UnknownPath
+    PathsClash
+    """
+    found = _targets(engine, path)
+    for target in found:
+        if named.setdefault(target, path) != path:
+            raise PathsClash(
+                f"'{named[target]}' and '{path}' are the same in this engine: give one of them"
+            )
+    return found
 
 
 def _depth(path: str) -> int:
@@ -104,6 +133,16 @@ def _targets(engine: Any, path: str) -> list[tuple[str, ...]]:
     found = [chain for chain in candidates if exists(engine, chain)]
     if not found:
         raise UnknownPath(_suggestion(engine, path))
+    return _of_cylinders(engine, found)
+
+
+def _of_cylinders(engine: Any, found: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Of a path in both chambers only that in the cylinder, where but one of them is one."""
+    if len(found) == 2:
+        burns = [isinstance(getattr(engine, chain[0]), CombustionChamber) for chain in found]
+        chambers = all(isinstance(getattr(engine, chain[0]), Chamber) for chain in found)
+        if chambers and any(burns):
+            return [chain for chain, is_cylinder in zip(found, burns, strict=True) if is_cylinder]
     return found
 
 

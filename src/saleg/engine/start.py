@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from saleg.engine.chambers import Chamber
 from saleg.laws.arguments import Motion
-from saleg.quantities import quantity
+from saleg.quantities import Quantities, quantity
 
 #: Exponent with which a start guesses the state of a charge compressed from port closing.
 COMPRESSION_EXPONENT = 1.35
@@ -70,7 +70,7 @@ class Initial(NamedTuple):
     right: Contents
 
 
-class Start:
+class Start(Quantities):
     """Base of all starts.
 
     ``engine`` is a :class:`saleg.Engine` throughout; it holds a start, so its type is not named.

@@ -25,7 +25,8 @@ from saleg.engine.chambers import (
 )
 from saleg.engine.engine import Engine
 from saleg.engine.start import Start
-from saleg.errors import EngineFileError, InvalidEngine, nearest
+from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest
+from saleg.files.reading import read_text
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.quantities import is_number
 
@@ -66,6 +67,21 @@ def laws_by_slot(own: Iterable[type] = ()) -> dict[str, dict[str, type]]:
             if isinstance(law, type) and issubclass(law, base) and law is not base:
                 found[slot][law.__name__] = law
     return found
+
+
+def checked_laws(laws: Any, error: type[SalegError]) -> list[type]:
+    """Classes of a user's own laws.
+
+    Raises
+    ------
+    SalegError
+        Of the type `error`, if they are none.
+    """
+    listed = list(laws) if isinstance(laws, Iterable) and not isinstance(laws, str) else [laws]
+    wrong = [law for law in listed if not isinstance(law, type)]
+    if wrong:
+        raise error(f"laws = {laws!r}: must be a list of classes of laws")
+    return listed
 
 
 def to_toml(engine: Engine) -> str:
@@ -119,7 +135,7 @@ def read_toml(path: str | Path, laws: Sequence[type] = ()) -> Engine:
     InvalidEngine
         Naming the file and every value out of range.
     """
-    reader = _Reader(laws_by_slot(laws))
+    reader = _Reader(laws_by_slot(checked_laws(laws, EngineFileError)))
     engine = reader.engine(parsed(path))
     if reader.wrong or engine is None:
         raise EngineFileError(f"{path}:\n" + "\n".join(f"  {text}" for text in reader.wrong))
@@ -133,11 +149,9 @@ def read_toml(path: str | Path, laws: Sequence[type] = ()) -> Engine:
 
 def parsed(path: str | Path) -> dict[str, Any]:
     """Tables of a TOML file; raises EngineFileError if it is none."""
+    text = read_text(path, EngineFileError)
     try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
         return tomllib.loads(text)
-    except OSError as error:
-        raise EngineFileError(f"cannot read {path}: {error.strerror}") from None
     except (ValueError, RecursionError) as error:
         raise EngineFileError(f"{path} is not a TOML file: {error}") from None
 

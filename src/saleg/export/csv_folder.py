@@ -13,6 +13,7 @@ from saleg.errors import RunFileError
 from saleg.export.description import Column, Description, Stored
 from saleg.export.units import CODES, LAYOUTS
 from saleg.files.atomic import write_text
+from saleg.files.reading import is_folder
 from saleg.files.tables import DamagedTable, label, read_table, write_table
 
 KIND = "folder of tables"
@@ -38,6 +39,8 @@ def _shown(column: Column) -> np.ndarray:
 @contextmanager
 def opened(folder: Path) -> Iterator[Stored]:
     """Look into a folder for reading, table by table."""
+    for name in FILES:
+        is_folder(folder / name, RunFileError)  # refuses what would be waited for without end
 
     @lru_cache(maxsize=1)
     def rows(table: str) -> np.ndarray:

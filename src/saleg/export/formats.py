@@ -8,12 +8,14 @@ from os import PathLike
 from pathlib import Path
 from types import ModuleType
 
+from saleg.engine.toml import checked_laws
 from saleg.errors import RunFileError, SalegError
 from saleg.export import csv_folder, hdf5, matlab, netcdf, npz
 from saleg.export.description import as_tables
 from saleg.export.extras import MissingExtra, extra
 from saleg.export.restore import restored
 from saleg.files.atomic import new_file, new_folder
+from saleg.files.reading import as_path, is_folder
 from saleg.simulation.run import Run
 
 #: Format of a file by its suffix; a name without one is a folder of CSV tables.
@@ -30,13 +32,14 @@ AnyPath = str | PathLike[str]
 
 def save(run: Run, path: AnyPath, *, overwrite: bool = False) -> None:
     """Save a run in the format its suffix asks for; see :meth:`saleg.Run.save`."""
-    _save(_format(Path(path)), run, path, overwrite)
+    _save(_format(as_path(path, RunFileError)), run, path, overwrite)
 
 
 def load(path: AnyPath, *, laws: Sequence[type] = ()) -> Run:
     """Load a run from the format its suffix tells; see :meth:`saleg.Run.load`."""
-    folder = Path(path).is_dir()
-    return _load(csv_folder if folder else _format(Path(path)), path, laws)
+    path = as_path(path, RunFileError)
+    folder = is_folder(path, RunFileError)
+    return _load(csv_folder if folder else _format(path), path, laws)
 
 
 def save_npz(run: Run, path: AnyPath, *, overwrite: bool = False) -> None:
@@ -118,20 +121,23 @@ def _format(path: Path) -> ModuleType:
 
 
 def _save(form: ModuleType, run: Run, path: AnyPath, overwrite: bool) -> None:
+    path = as_path(path, RunFileError)
     if form is csv_folder:
-        place = new_folder(Path(path), overwrite, csv_folder.FILES)
+        place = new_folder(path, overwrite, csv_folder.FILES)
     else:
-        place = new_file(Path(path), overwrite)
+        place = new_file(path, overwrite)
     with place as temporary:
         form.write(as_tables(run), temporary)
 
 
 def _load(form: ModuleType, path: AnyPath, laws: Sequence[type]) -> Run:
-    path = Path(path)
+    path = as_path(path, RunFileError)
+    folder = is_folder(path, RunFileError)
     if not path.exists():
         raise RunFileError(f"{path} does not exist")
-    if path.is_dir() != (form is csv_folder):
-        raise RunFileError(f"{path} is a {'folder' if path.is_dir() else 'file'}, no {form.KIND}")
+    if folder != (form is csv_folder):
+        raise RunFileError(f"{path} is a {'folder' if folder else 'file'}, no {form.KIND}")
+    checked_laws(laws, RunFileError)
     with _naming(path, form.KIND), form.opened(path) as stored:
         return restored(stored, laws)
 

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from saleg.errors import RunFileError, SalegError
+from saleg.files.reading import is_folder
 
 
 def write_text(path: Path, text: str, mode: int = 0o666) -> None:
@@ -72,6 +73,7 @@ def new_file(target: Path, overwrite: bool = False) -> Iterator[Path]:
             raise RunFileError(f"{path} is a folder; name a file")
         if path.exists() and not overwrite:
             raise RunFileError(f"{path} exists already; name another file, or pass overwrite=True")
+        is_folder(path, RunFileError)  # refuses devices and pipes
 
     with _taking_its_place(target, check) as temporary:
         yield temporary

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from saleg.fundamental.gas import Gas, Isentropic
-from saleg.quantities import quantity
+from saleg.quantities import Quantities, quantity
 
 
 @dataclass(frozen=True, kw_only=True)
-class Charge:
+class Charge(Quantities):
     """What burns in either chamber, and the curve it is compressed along.
 
     Parameters

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from saleg.quantities import quantity
+from saleg.quantities import Quantities, quantity
 
 
-class Gas:
+class Gas(Quantities):
     """Base of all gases: a ratio of specific heats and an exponent for either way.
 
     Attributes

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.fundamental.gas import Gas, expansion_work
-from saleg.quantities import quantity
+from saleg.quantities import Quantities, quantity
 
 if TYPE_CHECKING:
     from saleg.fundamental.charge import Charge
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 REACHED = 1e-9
 
 
-class Ignition:
+class Ignition(Quantities):
     """Base of all ignitions.
 
     Positions `s` count along the motion; the charge is compressed against s = 1.

@@ -9,13 +9,13 @@ import numpy as np
 
 from saleg.errors import OutsideModel
 from saleg.fundamental.otto import cosine_amplitude, otto_efficiency
-from saleg.quantities import Problem, quantity
+from saleg.quantities import Problem, Quantities, quantity
 
 if TYPE_CHECKING:
     from saleg.fundamental.charge import Charge
 
 
-class Load:
+class Load(Quantities):
     """Base of all loads: what resists the motion in a stroke."""
 
     def for_stroke(self, system: Charge, depth: Any) -> Profile:

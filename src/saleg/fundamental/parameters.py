@@ -30,6 +30,7 @@ class Parameters(Charge):
 
     def __post_init__(self) -> None:
         """Check the whole tree."""
+        super().__post_init__()
         kinds = {"load": Load, "gas": Gas, "ignition": Ignition}
         found = problems(self)
         for item in fields(self):

@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass
 
 from saleg.errors import OutsideModel
-from saleg.quantities import problems, quantity
+from saleg.quantities import Quantities, problems, quantity
 
 
 @dataclass(frozen=True, kw_only=True)
-class Scales:
+class Scales(Quantities):
     """The scales of Eq. 8-10 and 27: SI quantity over scale is the dimensionless one.
 
     Parameters
@@ -45,6 +45,7 @@ class Scales:
 
     def __post_init__(self) -> None:
         """Check all fields."""
+        super().__post_init__()
         found = problems(self)
         if found:
             raise OutsideModel(found)

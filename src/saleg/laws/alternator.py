@@ -200,7 +200,7 @@ class CircuitAlternator(RegulatedAlternator):
     mirrors: ClassVar[bool] = True
 
     flux_gradient: float = quantity("V s/m", default=50.0)
-    inductance: float = quantity("H", default=5e-3, low=0, open_low=True)
+    inductance: float = quantity("H", default=5e-3, low=0, open_low=True, usual=(1e-9, 1.0))
     coil_resistance: float = quantity("ohm", default=1.8, low=0)
     load_resistance: float = quantity("ohm", default=33.9, low=0, open_low=True)
     least_weight: float = quantity("-", default=0.02, low=0, open_low=True)

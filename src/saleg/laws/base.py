@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import ClassVar, NamedTuple
 
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+from saleg.quantities import Quantities
 
 
 class Validity(NamedTuple):
@@ -31,7 +32,7 @@ class Validity(NamedTuple):
     source: str
 
 
-class Law:
+class Law(Quantities):
     """Base of all laws.
 
     Attributes

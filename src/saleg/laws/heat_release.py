@@ -28,7 +28,9 @@ class BurnDuration(HeatRelease):
         The exponents i, j, k [-].
     """
 
-    combustion_duration: float = quantity("s", default=1.25e-3, low=0, open_low=True)
+    combustion_duration: float = quantity(
+        "s", default=1.25e-3, low=0, open_low=True, usual=(1e-6, 0.1)
+    )
     speed_exponent: float = quantity("-", default=0.0)
     equivalence_ratio_exponent: float = quantity("-", default=0.0)
     temperature_exponent: float = quantity("-", default=0.0)

@@ -188,7 +188,7 @@ class IgnitionAtPressure(Ignition):
         Pressure at which the charge lights [Pa].
     """
 
-    pressure: float = quantity("Pa", default=40e5, low=0, open_low=True)
+    pressure: float = quantity("Pa", default=40e5, low=0, open_low=True, usual=(1e4, 2e8))
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: that of the pressure over the rise to go."""

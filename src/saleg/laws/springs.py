@@ -11,6 +11,9 @@ from saleg.laws.base import Springs
 from saleg.laws.interpolation import linear, linear_integral
 from saleg.quantities import quantity, series
 
+#: Stiffness of what has been built [N/m].
+STIFFNESS = 100.0, 1e9
+
 
 @dataclass(frozen=True)
 class LinearSprings(Springs):
@@ -24,7 +27,7 @@ class LinearSprings(Springs):
 
     mirrors: ClassVar[bool] = True
 
-    stiffness: float = quantity("N/m", default=30e3, low=0)
+    stiffness: float = quantity("N/m", default=30e3, low=0, usual=STIFFNESS)
 
     def force(self, motion: Motion) -> float:
         """Force on the translator [N], Eq. 42."""
@@ -91,7 +94,7 @@ class PreloadedSprings(Springs):
         Force in each spring at the midpoint [N].
     """
 
-    stiffness: float = quantity("N/m", default=30e3, low=0)
+    stiffness: float = quantity("N/m", default=30e3, low=0, usual=STIFFNESS)
     preload: float = quantity("N", default=3e3, low=0)
 
     def force(self, motion: Motion) -> float:
@@ -130,7 +133,7 @@ class EndStops(Springs):
         Stiffness of a stop [N/m].
     """
 
-    stiffness: float = quantity("N/m", default=30e3, low=0)
+    stiffness: float = quantity("N/m", default=30e3, low=0, usual=STIFFNESS)
     gap: float = quantity("m", default=0.095, low=0)
     stop_stiffness: float = quantity("N/m", default=10e6, low=0)
 

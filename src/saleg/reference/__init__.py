@@ -7,13 +7,15 @@ plain. See :func:`simulate`.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
+from saleg.quantities import as_float
 from saleg.reference.running_engine import RunningEngine
 from saleg.reference.segments import (
     Solver,
@@ -28,6 +30,7 @@ from saleg.reference.segments import (
 from saleg.simulation.initial_state import State
 from saleg.simulation.outcome import outcome_of
 from saleg.simulation.run import Run
+from saleg.simulation.settings import SettingsError, check_flag
 
 __all__ = ["simulate"]
 
@@ -74,6 +77,8 @@ def simulate(
     ------
     InvalidEngine
         Naming every wrong field of the engine.
+    SettingsError
+        If a setting makes no sense.
 
     Examples
     --------
@@ -84,7 +89,10 @@ def simulate(
     >>> abs(again.performance.power / run.performance.power - 1.0) < 1e-5
     True
     """
-    engine.validate()
+    check_engine(engine)
+    rtol, stall_stroke, duration = _checked(solver, rtol, stall_stroke, duration)
+    check_flag("jitted", jitted)
+    check_flag("motored_pressure", motored_pressure)
     running = RunningEngine.started(engine, motored_pressure or engine.needs_motored_pressure)
     speed = natural_speed(running)
     method = Solver(
@@ -96,7 +104,7 @@ def simulate(
     )
     tally, trouble = Tally(), ""
     try:
-        code = _run_on(running, float(duration), method, tally, stall_stroke)
+        code = _run_on(running, duration, method, tally, stall_stroke)
     except SolverFailure as failure:
         code, trouble = layout.STEP_FAILURE, f" ({failure})"
     strokes = _rows(running.strokes, layout.STROKE_RECORD)
@@ -113,6 +121,24 @@ def simulate(
         steps=tally.steps,
         settings={"method": getattr(solver, "__name__", solver), "rtol": rtol, "jitted": jitted},
     )
+
+
+def _checked(solver: Any, *numbers: Any) -> list[float]:
+    """Tolerance, stall stroke and duration as floats; refused, as the solver, if they are none."""
+    from scipy.integrate import OdeSolver
+
+    known = ("DOP853", "RK45", "RK23", "Radau", "LSODA", "BDF")
+    made = isinstance(solver, type) and issubclass(solver, OdeSolver)
+    if not made and not (isinstance(solver, str) and solver in known):
+        raise SettingsError(f"solver = {solver!r}: must be one of {', '.join(known)}, or a class")
+    found = []
+    limits = (("rtol", 1e-14, 1.0), ("stall_stroke", 0.0, 1.0), ("duration", 0.0, math.inf))
+    for value, (name, low, high) in zip(numbers, limits, strict=True):
+        number = as_float(value)
+        if number is None or not low <= number < high:
+            raise SettingsError(f"{name} = {value!r}: must be a number >= {low:g} and < {high:g}")
+        found.append(number)
+    return found
 
 
 def _run_on(

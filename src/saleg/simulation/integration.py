@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine, warn_of_unusual
 from saleg.simulation.course import Course
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.run import Run
@@ -79,7 +79,8 @@ def simulate(
         stall_stroke=stall_stroke,
         keep_cycles=keep_cycles,
     ).checked()
-    engine.validate()
+    check_engine(engine)
+    warn_of_unusual(engine)
     return integrate(engine, prepare(engine), settings)
 
 

@@ -202,6 +202,37 @@ FIGURES: dict[str, Figure] = {
 UNITS = {name: figure.unit for name, figure in FIGURES.items()}
 
 
+#: Limits of what is plausible: a choice of ours without a source, well beyond every printed design
+#: (Tables 9 to 12: 237 bar, a compression ratio of 30, a mean piston speed of some 17 m/s).
+MAX_PRESSURE = 400e5
+MAX_COMPRESSION_RATIO = 80.0
+MAX_PISTON_SPEED = 30.0
+
+
+def remarks_on(performance: Performance) -> list[str]:
+    """Figures that no engine built comes near, as text.
+
+    Parameters
+    ----------
+    performance : Performance
+
+    Returns
+    -------
+    list of str
+        Empty for most engines, and where the figures are not known.
+    """
+    pressure, ratio = performance.peak_pressure, performance.compression_ratio
+    speed = 2.0 * performance.stroke * performance.frequency
+    found = []
+    if pressure > MAX_PRESSURE:
+        found.append(f"peak pressure {pressure / 1e5:.4g} bar (> {MAX_PRESSURE / 1e5:g})")
+    if ratio > MAX_COMPRESSION_RATIO:
+        found.append(f"compression ratio {ratio:.4g} (> {MAX_COMPRESSION_RATIO:g})")
+    if speed > MAX_PISTON_SPEED:
+        found.append(f"mean piston speed {speed:.4g} m/s (> {MAX_PISTON_SPEED:g})")
+    return found
+
+
 @dataclass(frozen=True)
 class EnergyBalance:
     """Energy balance between two dead centres; joules.

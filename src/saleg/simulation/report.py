@@ -29,7 +29,19 @@ def describe_performance(performance: Performance) -> str:
 def describe_run(run: Run) -> str:
     """Run as a short report."""
     head = f"{run.engine.name}: {run.status} - {run.message}"
-    return "\n".join([head, describe_performance(run.performance), *describe_ranges(run)])
+    return "\n".join(
+        [
+            head,
+            describe_performance(run.performance),
+            *describe_ranges(run),
+            *describe_remarks(run.remarks),
+        ]
+    )
+
+
+def describe_remarks(remarks: list[str]) -> list[str]:
+    """A line for every figure no engine built comes near."""
+    return [f"  beyond what is built: {remark}" for remark in remarks]
 
 
 def describe_ranges(run: Run) -> list[str]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel.layout import EVENT_NAMES
-from saleg.simulation.performance import EnergyBalance, Performance
+from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.tables import cycle_table, dead_centre_table, event_table, history_table
 from saleg.status import Status
 
@@ -37,7 +37,7 @@ class Run:
     duration : float
         Time simulated [s].
     strokes : ndarray
-        One record per stroke (see :mod:`saleg.kernel.layout`).
+        One record per stroke (see :mod:`saleg.kernel.layout`); read-only.
     evaluations, steps : int
         Right-hand sides evaluated and steps taken, events included.
     settings : dict
@@ -68,28 +68,56 @@ class Run:
         start = last_cycle_start(self.strokes)
         return None if start is None else self.strokes[start : start + 2]
 
-    @cached_property
+    def __post_init__(self) -> None:
+        """Show the records, but let nobody write to them."""
+        self.strokes, self.event_rows = read_only(self.strokes), read_only(self.event_rows)
+        if self.history_rows is not None:
+            self.history_rows = read_only(self.history_rows)
+
+    @property
     def cycles(self) -> pd.DataFrame:
-        """Table of the cycles, one row each, left dead centre to left dead centre; units in ``.attrs``."""
+        """Table of the cycles, left dead centre to left dead centre; units in ``.attrs``.
+
+        A copy: what is changed in it does not change the run.
+        """
+        return self._cycles.copy()
+
+    @property
+    def dead_centres(self) -> pd.DataFrame:
+        """Table of the strokes: signals at its end, and commands during it.
+
+        A copy, units in ``.attrs``.
+        """
+        return self._dead_centres.copy()
+
+    @property
+    def events(self) -> pd.DataFrame:
+        """Table of the events: time, kind, side, and the state there.
+
+        A copy, units in ``.attrs``.
+        """
+        return self._events.copy()
+
+    @property
+    def history(self) -> pd.DataFrame | None:
+        """Table of the recorded steps, two rows at an event (before and after); None if not kept.
+
+        A table of its own whose numbers are those of the records, which cannot be written to:
+        take a ``.copy()`` to change single ones.
+        """
+        return None if self.history_rows is None else history_table(self.history_rows)
+
+    @cached_property
+    def _cycles(self) -> pd.DataFrame:
         return cycle_table(self.engine, self.strokes)
 
     @cached_property
-    def dead_centres(self) -> pd.DataFrame:
-        """Table of the strokes, one row each: signals at its end, and commands during it.
-
-        Units in ``.attrs``.
-        """
+    def _dead_centres(self) -> pd.DataFrame:
         return dead_centre_table(self.engine, self.strokes)
 
     @cached_property
-    def events(self) -> pd.DataFrame:
-        """Table of the events, one row each: time, kind, side and state; units in ``.attrs``."""
+    def _events(self) -> pd.DataFrame:
         return event_table(self.event_rows, EVENT_NAMES)
-
-    @cached_property
-    def history(self) -> pd.DataFrame | None:
-        """Table of the recorded steps, two rows at an event (before and after); None if not kept."""
-        return None if self.history_rows is None else history_table(self.history_rows)
 
     @cached_property
     def orbit(self) -> Run | None:
@@ -108,6 +136,11 @@ class Run:
         if orbit is None or orbit.history_rows is None:
             return []
         return range_exits(self.engine, orbit.strokes, orbit.history_rows)
+
+    @property
+    def remarks(self) -> list[str]:
+        """Figures of the last full cycle that no engine built comes near, as text; often none."""
+        return remarks_on(self.performance)
 
     @cached_property
     def performance(self) -> Performance:
@@ -186,6 +219,13 @@ class Run:
         from saleg.simulation.report import describe_run
 
         return describe_run(self)
+
+
+def read_only(records: np.ndarray) -> np.ndarray:
+    """A view of records that cannot be written to."""
+    view = records.view()
+    view.flags.writeable = False
+    return view
 
 
 def last_cycle_start(strokes: np.ndarray) -> int | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from saleg.errors import SalegError
 from saleg.kernel import tableaus
-from saleg.quantities import is_number
+from saleg.quantities import as_float, is_whole
 
 #: Fixed step [s] where none is given.
 DEFAULT_STEP = 5e-6
@@ -18,6 +18,17 @@ DEFAULT_STEP = 5e-6
 
 class SettingsError(SalegError, ValueError):
     """A setting of :func:`saleg.simulate` that makes no sense."""
+
+
+def check_flag(name: str, value: Any) -> None:
+    """Refuse what is neither True nor False.
+
+    Raises
+    ------
+    SettingsError
+    """
+    if not isinstance(value, (bool, np.bool_)):
+        raise SettingsError(f"{name} = {value!r}: must be True or False")
 
 
 @dataclass(frozen=True)
@@ -64,13 +75,14 @@ class Settings:
             history=None if self.history is None else int(self.history),
             motored_pressure=bool(self.motored_pressure),
             stall_stroke=float(self.stall_stroke),
+            keep_cycles=None if self.keep_cycles is None else int(self.keep_cycles),
         )
 
     def _mistakes(self) -> list[str]:
         wrong = []
-        if self.method not in ("adaptive", "fixed"):
+        if not isinstance(self.method, str) or self.method not in ("adaptive", "fixed"):
             wrong.append(f"method = {self.method!r}: must be 'adaptive' or 'fixed'")
-        if not is_number(self.order) or self.order not in tableaus.FIXED_STEP:
+        if as_float(self.order) not in tableaus.FIXED_STEP:
             orders = ", ".join(str(number) for number in tableaus.FIXED_STEP)
             wrong.append(f"order = {self.order!r}: must be one of {orders}")
         for name, value, low, high in (
@@ -78,15 +90,17 @@ class Settings:
             ("step", self.fixed_step, 1e-12, 1.0),
             ("rtol", self.rtol, 9.9e-15, 1.01e-2),
         ):
-            if not is_number(value) or not low < value < high:
+            number = as_float(value)
+            if number is None or not low < number < high:
                 wrong.append(f"{name} = {value!r}: must be a number > {low:g} and < {high:g}")
-        if not is_number(self.stall_stroke) or not 0.0 <= self.stall_stroke < 1.0:
+        share = as_float(self.stall_stroke)
+        if share is None or not 0.0 <= share < 1.0:
             wrong.append(f"stall_stroke = {self.stall_stroke!r}: must be a number >= 0 and < 1")
         for name, count in (("history", self.history), ("keep_cycles", self.keep_cycles)):
-            if count is None:
-                continue
-            if not (isinstance(count, (int, np.integer)) and 1 <= count < 2**31):
+            if count is not None and not is_whole(count, 1, 2**31 - 1):
                 wrong.append(f"{name} = {count!r}: must be a whole number >= 1, or None")
+        if not isinstance(self.motored_pressure, (bool, np.bool_)):
+            wrong.append(f"motored_pressure = {self.motored_pressure!r}: must be True or False")
         return wrong
 
     def described(self) -> dict[str, Any]:

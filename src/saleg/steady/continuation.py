@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.engine.paths import unit_of
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.orbit import Z_CHAMBERS
-from saleg.quantities import is_number
+from saleg.quantities import as_float, is_number, is_whole
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.steady.earlier_names import renamed_keywords
@@ -214,14 +214,16 @@ def branch(
     >>> [(round(value, 1), kind) for value, kind in found.stability_changes]
     [(13.9, 'quasi-periodic')]
     """
-    start = engine.get(path)
-    if not (is_number(start) and is_number(stop)) or not math.isfinite(stop) or stop == start:
+    check_engine(engine)
+    start, end = engine.get(path), as_float(stop)
+    if not is_number(start) or end is None or not math.isfinite(end) or end == start:
         raise NoBranch(f"cannot follow '{path}' from {start!r} to {stop!r}")
-    if step is not None and not (is_number(step) and 0.0 < step < math.inf):
+    longest = abs(end - start) / 40.0 if step is None else as_float(step)
+    if longest is None or not 0.0 < longest < math.inf:
         raise NoBranch(f"step = {step!r}: must be a number > 0")
-    if max_points < 2:
-        raise NoBranch(f"max_points = {max_points!r}: must be at least 2")
-    engine.replace(**{path: stop}).validate()
+    if not is_whole(max_points, 2):
+        raise NoBranch(f"max_points = {max_points!r}: must be a whole number >= 2")
+    engine.replace(**{path: end}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")
     if conserved_entries(engine):
@@ -232,8 +234,7 @@ def branch(
     first = steady_state(engine, rtol=1e-9)
     if not first.found or first.replay is None:
         raise NoBranch(f"no steady state to begin with: {first.message}")
-    longest = step if step is not None else abs(stop - start) / 40.0
-    follower = _Follower(engine, path, float(start), float(stop), longest)
+    follower = _Follower(engine, path, float(start), end, longest)
     points: list[Point] = []
     for point in follower.points(first):
         points.append(point)

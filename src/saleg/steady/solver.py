@@ -15,18 +15,18 @@ from functools import cached_property
 
 import numpy as np
 
-from saleg.engine import Chamber, CombustionChamber, Engine
+from saleg.engine import Chamber, CombustionChamber, Engine, check_engine, warn_of_unusual
 from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
-from saleg.quantities import is_number
+from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import STEPS_PER_CALL, Replay
 from saleg.simulation.initial_state import natural_period, prepare
-from saleg.simulation.integration import simulate
+from saleg.simulation.integration import integrate
 from saleg.simulation.outcome import is_dead, is_idling
-from saleg.simulation.performance import EnergyBalance, Performance
-from saleg.simulation.run import Run
+from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
+from saleg.simulation.run import Run, read_only
 from saleg.simulation.settings import Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
@@ -95,7 +95,7 @@ class SteadyState:
         "fixed point", "continuation" (a point of a branch), "simulation", or "none" where a quick
         search has found nothing.
     strokes : ndarray of STROKE_RECORD
-        The two strokes of the cycle; empty without one.
+        The two strokes of the cycle, read-only; empty without one.
     """
 
     engine: Engine
@@ -108,6 +108,10 @@ class SteadyState:
     strokes: np.ndarray = field(repr=False)
     replay: Replay | None = field(default=None, repr=False)
     fallback: Run | None = field(default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        """Show the strokes, but let nobody write to them."""
+        self.strokes = read_only(self.strokes)
 
     @property
     def found(self) -> bool:
@@ -133,6 +137,11 @@ class SteadyState:
         if not len(self.strokes):
             return Performance.of_nothing(self.engine)
         return Performance.of_cycle(self.engine, self.strokes, self.strokes)
+
+    @property
+    def remarks(self) -> list[str]:
+        """Figures of the cycle that no engine built comes near, as text; often none."""
+        return remarks_on(self.quick_performance)
 
     @property
     def moving_mass(self) -> float:
@@ -178,14 +187,14 @@ class SteadyState:
         return self.found and self.has_multipliers and self.stability.stable
 
     def __str__(self) -> str:
-        from saleg.simulation.report import describe_performance
+        from saleg.simulation.report import describe_performance, describe_remarks
 
         known = vars(self).get("stability")
         stable = "stability not examined" if known is None else known.kind
         head = f"{self.engine.name}: {self.status} ({stable}) - {self.message}"
-        return f"{head if self.found else head.replace(f' ({stable})', '')}\n" + (
-            describe_performance(self.performance)
-        )
+        head = head if self.found else head.replace(f" ({stable})", "")
+        shown = describe_performance(self.performance)
+        return "\n".join([head, shown, *describe_remarks(self.remarks)])
 
 
 @renamed_keywords(most="max_maps")
@@ -232,22 +241,31 @@ def steady_state(
     >>> found.found, round(found.performance.frequency, 2), found.half_cycles < 20
     (True, 46.97, True)
     """
-    check_tolerance(rtol)
-    if not isinstance(max_maps, (int, np.integer)) or max_maps < 0:
+    rtol = check_tolerance(rtol)
+    if not is_whole(max_maps, 0, 2**31 - 1):
         raise SettingsError(f"max_maps = {max_maps!r}: must be a whole number >= 0")
-    engine.validate()
-    engine.check_laws()
     check_effort(effort)
+    check_engine(engine)
+    warn_of_unusual(engine)
+    return found_steady_state(engine, rtol, int(max_maps), effort)
+
+
+def found_steady_state(
+    engine: Engine, rtol: float, max_maps: int = MAX_MAPS, effort: Effort = Effort.THOROUGH
+) -> SteadyState:
+    """Steady state of an engine, without a warning of unusual numbers."""
+    check_engine(engine)
+    engine.check_laws()
     quick = effort is Effort.QUICK
     if not repeats_itself(engine):
         why = "a law depends on time or counts charges"
         return not_found(engine, 0, 0, why) if quick else waited_for(engine, rtol, 0, 0, why)
     if quick:
-        return _solved(engine, rtol, min(int(max_maps), QUICK_MAPS), quick)
-    found = _solved(engine, rtol, int(max_maps), quick)
+        return _solved(engine, rtol, min(max_maps, QUICK_MAPS), quick)
+    found = _solved(engine, rtol, max_maps, quick)
     if found.status is Status.UNSTEADY and rtol > FINEST:
         # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
-        again = _solved(engine, max(FINER * rtol, FINEST), int(max_maps), quick)
+        again = _solved(engine, max(FINER * rtol, FINEST), max_maps, quick)
         return replace(
             again,
             half_cycles=again.half_cycles + found.half_cycles,
@@ -256,15 +274,17 @@ def steady_state(
     return found
 
 
-def check_tolerance(rtol: float) -> None:
-    """Refuse a tolerance with which nothing can be solved.
+def check_tolerance(rtol: float) -> float:
+    """A tolerance as a float; refused if nothing can be solved with it.
 
     Raises
     ------
     SettingsError
     """
-    if not is_number(rtol) or not 1e-13 <= rtol <= 1e-3:
+    number = as_float(rtol)
+    if number is None or not 1e-13 <= number <= 1e-3:
         raise SettingsError(f"rtol = {rtol!r}: must be a number from 1e-13 to 1e-3")
+    return number
 
 
 def check_effort(effort: Effort) -> None:
@@ -380,7 +400,8 @@ def not_found(engine: Engine, spent: int, evaluations: int, why: str) -> SteadyS
 
 def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
-    run = simulate(engine, FALLBACK_PERIODS * natural_period(engine), rtol=rtol)
+    duration = FALLBACK_PERIODS * natural_period(engine)
+    run = integrate(engine, prepare(engine), Settings(duration, rtol=rtol))
     steady = run.status in (Status.STEADY, Status.IDLING)
     strokes = run.orbit.strokes if steady and run.orbit is not None else None
     unsettled = run.status is Status.COMPLETED

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from saleg.simulation.course import Replay
+from saleg.simulation.run import read_only
 from saleg.steady.return_map import NoReturn, ReturnMap, is_symmetric, sealed_entries
 
 #: Tolerance of the integrator for differences of the map, which magnify its error.
@@ -28,7 +29,8 @@ class Stability:
     Attributes
     ----------
     multipliers : ndarray of complex
-        Factors by which small disturbances grow from one cycle to the next, the largest first [-].
+        Factors by which small disturbances grow from one cycle to the next, the largest first [-];
+        read-only.
     kind : str
         "stable", or how stability is lost: "fold" (a real multiplier beyond +1), "asymmetric"
         (left and right grow apart), "period doubling" (beyond -1), "quasi-periodic" (a complex
@@ -44,6 +46,10 @@ class Stability:
     kind: str
     beat_period: float
     time_constant: float
+
+    def __post_init__(self) -> None:
+        """Show the multipliers, but let nobody write to them."""
+        object.__setattr__(self, "multipliers", read_only(self.multipliers))
 
     @property
     def stable(self) -> bool:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.compiler.compiled_engine import compiled_engine
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.tableaus import FIXED_STEP
@@ -292,7 +292,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
         raise SettingsError(f"step = {step!r}: must be > 0 and < duration ({duration:g} s)")
     if delay < 0 or delay != int(delay):
         raise SettingsError(f"delay = {delay!r}: must be a number of whole steps")
-    engine.validate()
+    check_engine(engine)
     (kernel, P, control), state = compiled_engine(engine, modules=DELAYED), prepare(engine)
     records = Records(False, None)
     options = options_record(Settings(duration, step=step), duration)

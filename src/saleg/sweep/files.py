@@ -37,6 +37,7 @@ from saleg.errors import SweepError, nearest
 from saleg.machines import CATALOGUE
 from saleg.quantities import is_number
 from saleg.sweep.points import grid, latin_hypercube, listed, refuse_too_many, sobol
+from saleg.sweep.subjects import subject_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -89,7 +90,9 @@ def read(path: str | Path) -> SweepFile:
     SweepError
         Naming the file and what is wrong in it.
     UnknownPath
-        If there is no value of a name in ``[fixed]``.
+        If there is no value of a name.
+    PathsClash
+        If two names, in ``[fixed]`` or among the inputs, stand for one number.
     """
     tables = parsed(path)
     try:
@@ -102,29 +105,36 @@ def read(path: str | Path) -> SweepFile:
             wanted = ", ".join(f"[{kind}]" for kind in KINDS)
             raise SweepError(f"needs one of {wanted}, and no more; has {given}")
         points = KINDS[kinds[0]](_table(tables, kinds[0]))
-        fixed = _table(tables, "fixed")
+        fixed = _fixed(tables)
         both = [name for name in points if name in fixed]
         if both:
             raise SweepError(f"{both[0]} stands in [fixed] and in [{kinds[0]}]: remove one")
-        swept = _swept(settings, fixed)
+        base = _base(settings)
+        subject_of(base).refuse_clash([*fixed, *points])
+        swept = base.replace(fixed) if isinstance(base, Design) else base.replace(**fixed)
         return SweepFile(points, swept, _settings(settings))
     except SweepError as error:
         raise SweepError(f"{path}: {error}") from None
 
 
-def _swept(settings: Mapping[str, Any], fixed: Mapping[str, Any]) -> Design | Engine:
-    """Design or engine with its fixed values."""
-    _refuse_dotted(fixed)
-    wrong = [name for name, value in fixed.items() if not is_number(value)]
-    if wrong:
-        raise SweepError(f"fixed.{wrong[0]} = {fixed[wrong[0]]!r}: must be a number")
-    values = {name: float(value) for name, value in fixed.items()}
+def _base(settings: Mapping[str, Any]) -> Design | Engine:
+    """The machine named, or the designs of Chapter 4."""
     if "machine" not in settings:
-        return Design().replace(values)
+        return Design()
     name = settings["machine"]
-    if name not in CATALOGUE:
-        raise SweepError(f"no machine {name!r}{nearest(name, CATALOGUE)}")
-    return CATALOGUE[name]().replace(**values)
+    if not isinstance(name, str) or name not in CATALOGUE:
+        raise SweepError(f"no machine {name!r}{nearest(str(name), CATALOGUE)}")
+    return CATALOGUE[name]()
+
+
+def _fixed(tables: Mapping[str, Any]) -> dict[str, float]:
+    """Values of [fixed] by name."""
+    given = _table(tables, "fixed")
+    _refuse_dotted(given)
+    wrong = [name for name, value in given.items() if not is_number(value)]
+    if wrong:
+        raise SweepError(f"fixed.{wrong[0]} = {given[wrong[0]]!r}: must be a number")
+    return {name: float(value) for name, value in given.items()}
 
 
 def _settings(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.errors import SweepError
-from saleg.quantities import is_number
+from saleg.quantities import is_number, is_whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -152,15 +152,15 @@ def box(ranges: Ranges) -> tuple[np.ndarray, np.ndarray]:
 def refuse_too_many(count: int) -> None:
     """Refuse a set of points that would fill the memory."""
     if count > MOST_POINTS:
+        shown = f"{min(count, 10**300):.3g}"
         raise SweepError(
-            f"{count:.3g} points are more than {MOST_POINTS:.0e}: take fewer values, or split the "
-            "sweep"
+            f"{shown} points are more than {MOST_POINTS:.0e}: take fewer values, or split the sweep"
         )
 
 
 def checked_seed(seed: int) -> int:
     """A seed, refused unless it always gives the same points."""
-    if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
+    if not is_whole(seed, 0):
         raise SweepError(f"seed = {seed!r}: must be a whole number >= 0")
     return int(seed)
 
@@ -182,7 +182,7 @@ def _numbers(name: str, values: Sequence[float]) -> list[float]:
 
 
 def _count(count: int) -> int:
-    if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
+    if not is_whole(count, 1):
         raise SweepError(f"count = {count!r}: must be a whole number >= 1")
     refuse_too_many(int(count))
     return int(count)

@@ -13,6 +13,8 @@ from saleg.batch.table import CHUNK, Columns
 from saleg.design.designs import Design
 from saleg.engine import Engine
 from saleg.errors import SweepError
+from saleg.files.reading import as_path, is_folder
+from saleg.simulation.settings import check_flag
 from saleg.steady.solver import DEFAULT_TOLERANCE, Effort, check_effort, check_tolerance
 from saleg.sweep.store import Folder
 from saleg.sweep.subjects import Subject, subject_of
@@ -86,6 +88,8 @@ def run(
         If the sweep makes no sense, or the folder holds another one.
     UnknownPath
         If there is no input of that name.
+    PathsClash
+        If two inputs stand for one number.
     WorkersError
         If nobody could do the work so.
 
@@ -97,13 +101,16 @@ def run(
     (True, [True, True])
     """
     subject = subject_of(swept)
-    check_tolerance(rtol)
+    rtol = check_tolerance(rtol)
     check_effort(effort)
+    check_flag("multipliers", multipliers)
+    check_flag("warm", warm)
     solver = partial(subject.solver, rtol, multipliers, warm, effort)
     evaluation = Evaluation(points, subject, solver, chunk, executor, workers)
     if folder is None:
         return evaluation.table(dict(_work(evaluation, report)))
-    settings = {"rtol": rtol, "multipliers": multipliers, "warm": warm, "chunk": chunk}
+    settings = {"rtol": rtol, "multipliers": bool(multipliers), "warm": bool(warm)}
+    settings["chunk"] = int(chunk)
     if effort is not Effort.THOROUGH:  # folders from before there was a choice stay what they are
         settings["effort"] = effort.value
     identity = {
@@ -141,9 +148,9 @@ def load(folder: str | Path) -> pd.DataFrame:
 
 
 def _path(folder: Any) -> Path:
-    if not isinstance(folder, (str, Path)):
-        raise SweepError(f"folder = {folder!r}: must be text or a Path")
-    return Path(folder)
+    path = as_path(folder, SweepError, "folder")
+    is_folder(path, SweepError)
+    return path
 
 
 def _resumed(kept: Folder, evaluation: Evaluation, report: Report | None) -> pd.DataFrame:

@@ -22,6 +22,7 @@ from saleg.batch.table import Columns, kind_of
 from saleg.errors import SweepError
 from saleg.files.atomic import write_text
 from saleg.files.lock import locked
+from saleg.files.reading import is_folder, named
 from saleg.files.tables import DamagedTable, labelled, read_table, write_table
 
 if TYPE_CHECKING:
@@ -73,7 +74,8 @@ class Folder:
             if self.path.is_dir():
                 self._refuse_strangers(table_text(points))
             self.path.mkdir(parents=True, exist_ok=True)
-            (self.path / LOCK).touch()
+            with open(self.path / LOCK, "ab"):
+                pass
         with locked(self.path / LOCK):
             self._claim(json.loads(json.dumps(identity)), points, begun_by)
             yield
@@ -128,11 +130,11 @@ class Folder:
     def _piece(self, number: int, count: int) -> Columns | None:
         """A piece with so many points as it was written; None if it is not whole."""
         try:
-            known = json.loads(self._part(number).read_text(encoding="utf-8"))
+            known = json.loads(_read(self._part(number)))
             columns = known["columns"]
             if known["sha256"] == _digest(columns) and len(columns["status"]) == count:
                 return {name: np.array(columns[name], dtype=kind_of(name)) for name in columns}
-        except (OSError, ValueError, TypeError, KeyError):
+        except (ValueError, TypeError, KeyError, RecursionError):  # SweepErrors among them
             pass
         return None
 
@@ -182,10 +184,8 @@ def _damaged(path: Path, why: str) -> SweepError:
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
     """Name the file in what goes wrong with it."""
-    try:
+    with named(path, SweepError, "write"):
         yield
-    except OSError as error:
-        raise SweepError(f"cannot write {path}: {error.strerror}") from None
 
 
 def _write(path: Path, text: str) -> None:
@@ -194,10 +194,11 @@ def _write(path: Path, text: str) -> None:
 
 
 def _read(path: Path) -> str:
+    is_folder(path, SweepError)  # refuses what would be waited for without end
+    with named(path, SweepError):
+        content = path.read_bytes()
     try:
-        return path.read_bytes().decode("utf-8")
-    except OSError as error:
-        raise SweepError(f"cannot read {path}: {error.strerror}") from None
+        return content.decode("utf-8")
     except ValueError:
         raise SweepError(f"{path} is damaged: it is no text") from None
 
@@ -207,7 +208,7 @@ def read_description(folder: Path) -> dict[str, Any]:
     path = folder / DESCRIPTION
     try:
         held = json.loads(_read(path))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise SweepError(f"{folder} is no folder of a sweep: {error}") from None
     if not isinstance(held, dict):
         raise SweepError(f"{folder} is no folder of a sweep: {path} holds no table")
@@ -224,10 +225,10 @@ def read_frame(path: Path) -> pd.DataFrame:
     """
     import pandas as pd
 
+    is_folder(path, SweepError)  # refuses what would be waited for without end
     try:
-        rows = read_table(path, lambda label: kind_of(_split(label)[0]) is not float)
-    except OSError as error:
-        raise SweepError(f"cannot read {path}: {error.strerror}") from None
+        with named(path, SweepError):
+            rows = read_table(path, lambda label: kind_of(_split(label)[0]) is not float)
     except DamagedTable as error:
         raise _damaged(path, str(error)) from None
     units = dict(map(_split, rows.dtype.names or ()))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from typing import Any, Protocol
 
@@ -15,7 +16,7 @@ from saleg.design.many import EvaluatedDesign
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import SweepError, UnknownPath
-from saleg.steady.solver import Effort, steady_state
+from saleg.steady.solver import Effort, found_steady_state
 from saleg.sweep.identity import described, own_code
 
 
@@ -63,6 +64,10 @@ class EngineSubject:
             refuse_parts(name, self.engine.get(name))
         return unit
 
+    def refuse_clash(self, names: Iterable[str]) -> None:
+        """Refuse inputs of which two stand for one number."""
+        self.engine.replace(**dict.fromkeys(names, math.nan))
+
     def describe(self) -> dict[str, Any]:
         """The engine."""
         return {"kind": "engine", **_laws(self.engine)}
@@ -73,7 +78,7 @@ class EngineSubject:
             raise SweepError("warm starts are for designs; an engine begins with its own starts")
 
         def row(values: Values) -> Row:
-            found = steady_state(self.engine.replace(**values), rtol=rtol, effort=effort)
+            found = found_steady_state(self.engine.replace(**values), rtol, effort=effort)
             return steady_row(found, multipliers)
 
         return row
