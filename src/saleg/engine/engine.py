@@ -245,13 +245,19 @@ def check_engine(engine: Any) -> None:
     engine.validate()
 
 
-def warn_of_unusual(engine: Engine) -> None:
-    """Warn once of all numbers of a valid engine that are far from what has been built."""
+def warn_of_unusual(engine: Engine, frames: int = 1) -> None:
+    """Warn once of all numbers of a valid engine that are far from what has been built.
+
+    Parameters
+    ----------
+    engine : Engine
+    frames : int
+        Functions between this one and the user's line, which the warning names.
+    """
     found = engine.unusual()
     if found:
         lines = "\n".join(f"  {problem}" for problem in found)
-        # The line of the user's: beyond this one and the function it is called in.
-        warnings.warn(f"unusual for an engine:\n{lines}", SalegWarning, stacklevel=3)
+        warnings.warn(f"unusual for an engine:\n{lines}", SalegWarning, stacklevel=2 + frames)
 
 
 _CHAMBER_PARTS: dict[str, type] = {**CHAMBER_SLOTS, "intake": Intake, "fuel": Fuel}

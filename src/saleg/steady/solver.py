@@ -246,7 +246,7 @@ def steady_state(
         raise SettingsError(f"max_maps = {max_maps!r}: must be a whole number >= 0")
     check_effort(effort)
     check_engine(engine)
-    warn_of_unusual(engine)
+    warn_of_unusual(engine, frames=2)  # this one and what accepts earlier keywords
     return found_steady_state(engine, rtol, int(max_maps), effort)
 
 
