@@ -53,14 +53,17 @@ BY_NAME = {
     "fired_at": "s",
     "recovery_time": "s",
 }
-#: What people call quantities whose names are symbols or short.
-WORDS = {
+#: What people call columns of a run whose names are symbols.
+SYMBOLS = {
     "t": "time",
     "x": "position",
     "v": "velocity",
     "a": "acceleration",
     "V": "volume",
     "p": "pressure",
+}
+#: What people call quantities whose own names would not do.
+WORDS = {
     "p_motored": "motored pressure",
     "heat_loss": "heat flow to the walls",
     "heat_transfer": "heat to the walls per cycle",
@@ -109,7 +112,7 @@ def readable(name: str, unit: str, words: str = "") -> Readable:
     name : str
         Name of a column or a field, or a dotted path.
     unit : str
-        SI unit.
+        SI unit; ``""`` if it has none, as an input of a user's own function, where ``x`` is ``x``.
     words : str
         Name in words, where the usual one does not do.
 
@@ -125,5 +128,6 @@ def readable(name: str, unit: str, words: str = "") -> Readable:
     'EGR [%]'
     """
     read = BY_NAME.get(name, BY_UNIT.get(unit, unit))
-    usual = WORDS.get(name, name.replace("_", " ").replace(".", ": "))
+    known = WORDS | SYMBOLS if unit else WORDS
+    usual = known.get(name, name.replace("_", " ").replace(".", ": "))
     return Readable(words or usual, read, FACTORS.get(read, 1.0))
