@@ -247,7 +247,7 @@ def steady_state(
     check_effort(effort)
     check_engine(engine)
     warn_of_unusual(engine, frames=2)  # this one and what accepts earlier keywords
-    return found_steady_state(engine, rtol, int(max_maps), effort)
+    return _found(engine, rtol, int(max_maps), effort)
 
 
 def found_steady_state(
@@ -255,6 +255,11 @@ def found_steady_state(
 ) -> SteadyState:
     """Steady state of an engine, without a warning of unusual numbers."""
     check_engine(engine)
+    return _found(engine, rtol, max_maps, effort)
+
+
+def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> SteadyState:
+    """Steady state of an engine whose numbers have been checked."""
     engine.check_laws()
     quick = effort is Effort.QUICK
     if not repeats_itself(engine):
