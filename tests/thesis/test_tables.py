@@ -17,7 +17,7 @@ def test_every_file_is_a_table_and_every_table_is_read():
     assert {path.name for path in TABLES.glob("*.csv")} == set(tables.FILES.values())
     for number in tables.FILES:
         assert len(tables.table(number)) >= 2
-    with pytest.raises(ValueError, match="no Table 7"):
+    with pytest.raises(saleg.SalegError, match="no Table 7"):
         tables.table(7)
 
 

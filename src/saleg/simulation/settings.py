@@ -88,11 +88,13 @@ class Settings:
         for name, value, low, high in (
             ("duration", self.duration, 0.0, math.inf),
             ("step", self.fixed_step, 1e-12, 1.0),
-            ("rtol", self.rtol, 9.9e-15, 1.01e-2),
         ):
             number = as_float(value)
             if number is None or not low < number < high:
                 wrong.append(f"{name} = {value!r}: must be a number > {low:g} and < {high:g}")
+        rtol = as_float(self.rtol)
+        if rtol is None or not 1e-14 <= rtol <= 1e-2:
+            wrong.append(f"rtol = {self.rtol!r}: must be a number from 1e-14 to 1e-2")
         share = as_float(self.stall_stroke)
         if share is None or not 0.0 <= share < 1.0:
             wrong.append(f"stall_stroke = {self.stall_stroke!r}: must be a number >= 0 and < 1")

@@ -11,6 +11,8 @@ import csv
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
+from saleg.errors import SalegError
+
 if TYPE_CHECKING:
     import pandas as pd
 
@@ -74,7 +76,7 @@ def table(number: int) -> pd.DataFrame:
 
     Raises
     ------
-    ValueError
+    NoTable
         If there is no such table.
 
     Examples
@@ -148,9 +150,13 @@ def _numbers(row: dict[str, str], key: str) -> dict[str, float]:
     return found
 
 
+class NoTable(SalegError, ValueError):
+    """A table the dissertation prints no numbers in, or does not have."""
+
+
 def _path(number: int) -> str:
     if number not in FILES:
-        raise ValueError(f"no Table {number!r} here; there are {', '.join(map(str, FILES))}")
+        raise NoTable(f"no Table {number!r} here; there are {', '.join(map(str, FILES))}")
     return str(files("saleg.thesis").joinpath("data", FILES[number]))
 
 
