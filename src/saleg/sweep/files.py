@@ -31,13 +31,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.design.designs import Design
+from saleg.design.subjects import subject_of
 from saleg.engine import Engine
 from saleg.engine.toml import parsed
 from saleg.errors import SweepError, nearest
 from saleg.machines import CATALOGUE
 from saleg.quantities import is_number
 from saleg.sweep.points import grid, latin_hypercube, listed, refuse_too_many, sobol
-from saleg.sweep.subjects import subject_of
 
 if TYPE_CHECKING:
     import pandas as pd
