@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.design.loop import solve
+from saleg.engine import Engine
 from saleg.optimize.fronts import first_front
 from saleg.optimize.methods.archive import Axis, cells_of, elites
 from saleg.optimize.methods.base import Method
@@ -14,6 +16,8 @@ from saleg.optimize.problem import Problem
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from saleg.plotting import Plots
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +82,23 @@ class Found:
     def design(self) -> Any:
         """The best design, or engine, to be evaluated or changed further."""
         return self.problem.candidate(self.best)
+
+    def engine(self) -> Engine:
+        """The best design as an engine, with the moving mass it has in its steady state.
+
+        ``found.engine().to_toml()`` is a file that ``saleg run`` takes.
+        """
+        best = self.design()
+        if isinstance(best, Engine):
+            return best
+        return solve(best, rtol=self.problem.rtol).engine
+
+    @property
+    def plot(self) -> Plots:
+        """Figures: ``found.plot.convergence()`` and so on; ``dir`` lists them."""
+        from saleg.plotting.optimisation import plots
+
+        return plots(self)
 
     def __str__(self) -> str:
         best = self.best
