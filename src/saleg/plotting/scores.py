@@ -66,10 +66,15 @@ def score_terms(score: Any, ax: Any = None) -> np.ndarray:
 def _ends(term: Term) -> tuple[float, float]:
     """Where a curve is drawn: a little beyond all that its fields name."""
     inner = getattr(term, "term", term)
-    places = [v for name in PLACES if is_number(v := getattr(inner, name, None))]
-    lengths = [v for name in LENGTHS if is_number(v := getattr(inner, name, None))]
+    places, lengths = _numbers(inner, PLACES), _numbers(inner, LENGTHS)
     if not places and not lengths:
         return UNIT_INTERVAL
     low, high = min(places, default=0.0), max(places, default=0.0)
     room = 2.5 * max(lengths, default=0.4 * (high - low) or high)
     return max(low - room, 0.0) if low >= 0.0 else low - room, high + room
+
+
+def _numbers(term: Any, names: tuple[str, ...]) -> list[float]:
+    """Those fields of a term that are numbers."""
+    held: list[Any] = [getattr(term, name, None) for name in names]
+    return [float(value) for value in held if is_number(value)]
