@@ -127,7 +127,7 @@ class Score(Quantities):
         return tuple(limit for weight, term in self.terms if weight for limit in term.limits)
 
     def miss(self, row: Mapping[str, Any]) -> Any:
-        """How far a row is off, 0 to 1, where the curves are flat at nothing: 0 near the targets."""
+        """How far a row is off, 0 to 1, where curves are flat at nothing: 0 near the targets."""
         return mean_miss(self.terms, row)
 
     def __call__(self, row: Mapping[str, Any]) -> Any:

@@ -10,15 +10,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from saleg.errors import SalegError, WrongFields, nearest
 from saleg.quantities import Problem, Quantities, is_number, problems, quantity
 
-#: Figures by name: one row, or the columns of a table.
-Row = Mapping[str, Any]
+if TYPE_CHECKING:
+    import pandas as pd
+
+    #: Figures by name: one row, or the columns of a table.
+    Row: TypeAlias = Mapping[str, Any] | pd.DataFrame
+
 #: A bell asks as a hard limit for what differs from its target by this share at most.
 LIMIT_OF_BELL = 0.05
 
@@ -48,7 +52,7 @@ class Limit(NamedTuple):
 
     Examples
     --------
-    >>> Limit("compression_ratio", 5.0, 25.0).violation({"compression_ratio": 30.0})
+    >>> float(Limit("compression_ratio", 5.0, 25.0).violation({"compression_ratio": 30.0}))
     0.2
     """
 
@@ -429,7 +433,7 @@ class WeightedScore:
             elif isinstance(term, type) or not callable(getattr(term, "curve", None)):
                 found.append(Problem(f"terms[{number}]", term, "-", "must be a term"))
             else:
-                held.append(Weighted(float(weight), term))  # type: ignore[arg-type]
+                held.append(Weighted(float(weight), term))
         if not found and not sum(weight for weight, _ in held) > 0.0:
             found.append(Problem("terms", self.terms, "-", "one of the weights must be > 0"))
         if found:
