@@ -22,6 +22,7 @@ from saleg.design.terms import (
     Reached,
     Repeats,
     Weighted,
+    mean_miss,
     weighted_mean,
 )
 from saleg.quantities import Problem, Quantities, as_float, problems, quantity
@@ -124,6 +125,10 @@ class Score(Quantities):
     def limits(self) -> tuple[Limit, ...]:
         """What the terms that count ask for, as hard limits."""
         return tuple(limit for weight, term in self.terms if weight for limit in term.limits)
+
+    def miss(self, row: Mapping[str, Any]) -> Any:
+        """How far a row is off, 0 to 1, where curves are flat at nothing: 0 near the targets."""
+        return mean_miss(self.terms, row)
 
     def __call__(self, row: Mapping[str, Any]) -> Any:
         """Score [-] of a row, or of a whole frame, with these figures; 0 where one is missing.

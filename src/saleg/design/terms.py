@@ -10,15 +10,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from saleg.errors import SalegError, WrongFields, nearest
 from saleg.quantities import Problem, Quantities, is_number, problems, quantity
 
-#: Figures by name: one row, or the columns of a table.
-Row = Mapping[str, Any]
+if TYPE_CHECKING:
+    import pandas as pd
+
+    #: Figures by name: one row, or the columns of a table.
+    Row: TypeAlias = Mapping[str, Any] | pd.DataFrame
+
 #: A bell asks as a hard limit for what differs from its target by this share at most.
 LIMIT_OF_BELL = 0.05
 
@@ -48,7 +52,7 @@ class Limit(NamedTuple):
 
     Examples
     --------
-    >>> Limit("compression_ratio", 5.0, 25.0).violation({"compression_ratio": 30.0})
+    >>> float(Limit("compression_ratio", 5.0, 25.0).violation({"compression_ratio": 30.0}))
     0.2
     """
 
@@ -93,6 +97,9 @@ class Term(Protocol):
     def curve(self, values: Any) -> Any:
         """What values of the figure earn, 0 to 1."""
 
+    def miss(self, values: Any) -> Any:
+        """How far values are beyond where the curve is flat at nothing, 0 to 1."""
+
     def __call__(self, row: Row) -> Any:
         """What a row, or every row of a table, earns."""
 
@@ -122,6 +129,10 @@ class _Curve(Quantities):
         """What values of the figure earn, 0 to 1."""
         raise NotImplementedError
 
+    def miss(self, values: Any) -> Any:
+        """How far values are beyond where the curve is flat at nothing, 0 to 1."""
+        return 0.0 * np.asarray(values)
+
     def __call__(self, row: Row) -> Any:
         """What a row, or every row of a table, earns."""
         return self.curve(column(row, self.figure))
@@ -148,6 +159,10 @@ class Reached(_Curve):
         """What values of the figure earn, 0 to 1."""
         share = np.maximum((np.asarray(values) - self.target) / self.tolerance + 1.0, 0.0)
         return 1.0 - np.exp(-2.0 * share**6)
+
+    def miss(self, values: Any) -> Any:
+        """How far values are below where the curve begins, 0 to 1."""
+        return _beyond((self.target - np.asarray(values)) / self.tolerance - 1.0)
 
 
 @dataclass(frozen=True)
@@ -178,6 +193,10 @@ class Below(_Curve):
         left = np.maximum((self.limit - np.asarray(values)) / self.tolerance + 1.0, 0.0)
         return 1.0 - np.exp(-(left**6))
 
+    def miss(self, values: Any) -> Any:
+        """How far values are above where the curve ends, 0 to 1."""
+        return _beyond((np.asarray(values) - self.limit) / self.tolerance - 1.0)
+
 
 @dataclass(frozen=True)
 class Bell(_Curve):
@@ -204,6 +223,10 @@ class Bell(_Curve):
         """What values of the figure earn, 0 to 1."""
         return np.exp(-(((np.asarray(values) - self.target) / self.width) ** 2))
 
+    def miss(self, values: Any) -> Any:
+        """How far values are off the bell, beyond two widths, 0 to 1."""
+        return _beyond(np.abs(np.asarray(values) - self.target) / self.width - 2.0)
+
 
 @dataclass(frozen=True)
 class Range(_Curve):
@@ -227,10 +250,20 @@ class Range(_Curve):
 
     def curve(self, values: Any) -> Any:
         """What values of the figure earn, 0 to 1."""
+        return np.exp(-2.0 * self._off(values) ** 2)
+
+    def miss(self, values: Any) -> Any:
+        """How far values are off the flanks, 0 to 1."""
+        return _beyond(self._off(values) - 1.5)
+
+    def _off(self, values: Any) -> Any:
+        """Distance from the range in widths of its flanks."""
         values = np.asarray(values)
-        below = np.maximum(self.low - values, 0.0) / (0.1 * self.low)
-        above = np.maximum(values - self.high, 0.0) / (0.1 * self.high)
-        return np.exp(-2.0 * (below**2 + above**2))
+        below, above = (
+            (self.low - values) / (0.1 * self.low),
+            (values - self.high) / (0.1 * self.high),
+        )
+        return np.maximum(np.maximum(below, above), 0.0)
 
 
 @dataclass(frozen=True)
@@ -293,6 +326,10 @@ class Within(_Curve):
         inside = (values >= self.low) & (values <= self.high)
         return np.where(inside, self.term.curve(values), np.where(np.isnan(values), np.nan, 0.0))
 
+    def miss(self, values: Any) -> Any:
+        """As for the term."""
+        return self.term.miss(values)
+
 
 @dataclass(frozen=True)
 class Own:
@@ -321,6 +358,10 @@ class Own:
         """What it gives is what it earns."""
         return np.asarray(values)
 
+    def miss(self, values: Any) -> Any:
+        """Nothing is known of an own function where it is flat."""
+        return 0.0 * np.asarray(values)
+
     def __call__(self, row: Row) -> Any:
         """What a row, or every row of a table, earns.
 
@@ -341,6 +382,12 @@ class Own:
             need = "must give numbers from 0 to 1 for every row with a steady state"
             raise InvalidScore([Problem(self.figure, first, "-", need)])
         return np.where(known, met, np.nan)
+
+
+def _beyond(distance: Any) -> Any:
+    """A distance as a number from 0 to 1; 0 where it is negative."""
+    distance = np.maximum(distance, 0.0)
+    return distance / (1.0 + distance)
 
 
 class Weighted(NamedTuple):
@@ -386,7 +433,7 @@ class WeightedScore:
             elif isinstance(term, type) or not callable(getattr(term, "curve", None)):
                 found.append(Problem(f"terms[{number}]", term, "-", "must be a term"))
             else:
-                held.append(Weighted(float(weight), term))  # type: ignore[arg-type]
+                held.append(Weighted(float(weight), term))
         if not found and not sum(weight for weight, _ in held) > 0.0:
             found.append(Problem("terms", self.terms, "-", "one of the weights must be > 0"))
         if found:
@@ -397,6 +444,10 @@ class WeightedScore:
     def limits(self) -> tuple[Limit, ...]:
         """What the terms that count ask for, as hard limits."""
         return tuple(limit for weight, term in self.terms if weight for limit in term.limits)
+
+    def miss(self, row: Row) -> Any:
+        """How far a row is off, 0 to 1, where the curves are flat at nothing: see `mean_miss`."""
+        return mean_miss(self.terms, row)
 
     def __call__(self, row: Row) -> Any:
         """Score of a row, or of every row of a table; 0 where a figure is missing."""
@@ -414,6 +465,21 @@ def weighted_mean(terms: Iterable[Weighted], row: Row, needs_delivery: bool = Tr
         sensible = (share > 0.0) | (~np.isnan(share) & (not needs_delivery))
         total = np.where(sensible & (share <= 1.0), total, 0.0)
     return np.nan_to_num(total, nan=0.0)
+
+
+def mean_miss(terms: Iterable[Weighted], row: Row) -> Any:
+    """Weighted mean of how far a row is off where curves are flat at nothing; 1 if not known.
+
+    0 wherever every term earns something. A search that is told the score less this one feels a
+    pull on the plateaus of the score too, and finds the same best design.
+    """
+    counted = [(weight, term) for weight, term in terms if weight > 0.0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        off = sum(
+            weight * (term.miss(row[term.figure]) if term.figure in row else 0.0)
+            for weight, term in counted
+        )
+    return np.nan_to_num(off / sum(weight for weight, _ in counted), nan=1.0)
 
 
 #: Words of a status behind which figures of a steady state stand.

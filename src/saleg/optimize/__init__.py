@@ -123,8 +123,8 @@ def score(table: pd.DataFrame, problem: Problem | Any) -> pd.Series:
 
     Examples
     --------
-    >>> import saleg
-    >>> printed = saleg.thesis.chapter_4.printed(9)
+    >>> from saleg.thesis import chapter_4
+    >>> printed = chapter_4.printed(9)
     >>> bool(score(printed.loc[["4 kW"]], thesis_problem(4e3)).iloc[0] > 0.998)
     True
     """

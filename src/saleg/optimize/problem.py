@@ -76,12 +76,16 @@ class Told(NamedTuple):
     fitness : ndarray
         First objective; below :data:`MISSES` where limits are missed, :data:`FAILED` without a
         steady state. Scores are never below 0: what fails has a score of 0.
+    guide : ndarray
+        Fitness, but less where a term of the score is flat at nothing: the same best design, and a
+        pull towards it from everywhere.
     """
 
     table: pd.DataFrame
     objectives: np.ndarray
     violation: np.ndarray
     fitness: np.ndarray
+    guide: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -232,7 +236,10 @@ class Problem:
             missed = np.where(known & ~np.isnan(missed), missed, np.inf)
         fitness = np.where(missed > 0.0, MISSES - np.minimum(missed, -MISSES), values[:, 0])
         fitness = np.where(np.isnan(fitness) | np.isinf(missed), FAILED, fitness)
-        return Told(table, values, missed, fitness)
+        guide = fitness
+        if self.objectives[0].figure == "score" and hasattr(self.score, "miss"):
+            guide = fitness - np.where(known, self.score.miss(table), 1.0)
+        return Told(table, values, missed, fitness, guide)
 
     def shown(self, fitness: float) -> float:
         """First objective behind a fitness; NaN where limits are missed or nothing is found."""

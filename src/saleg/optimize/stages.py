@@ -8,12 +8,12 @@ import numpy as np
 
 from saleg.errors import Problem as Wrong
 from saleg.optimize.loop import optimize
-from saleg.optimize.methods import CompassSearch, Method, default_method
+from saleg.optimize.methods import CMAES, CompassSearch, Method, default_method
 from saleg.optimize.problem import InvalidProblem, Objective
 from saleg.optimize.result import Found
 
 #: Designs a second stage begins with.
-WINNERS = 24
+WINNERS = 8
 #: First step of CMA-ES around the winners, over the range of each parameter.
 STEP = 0.1
 
@@ -61,8 +61,7 @@ def improve(
     goal = problem.replace(objectives=(wanted,), constraints=tuple(dict.fromkeys(limits)))
     if method is None:
         method = default_method(1)
-        if hasattr(method, "step"):
-            method = type(method)(step=STEP)
+        method = CMAES(step=STEP) if isinstance(method, CMAES) else method
     return optimize(goal, method, evaluations, seed, start=winners(found, goal), **further)
 
 

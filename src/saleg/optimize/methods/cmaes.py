@@ -75,10 +75,10 @@ class _Search:
     def tell(self, told: Told) -> float:
         """Rank the sample, or adapt; begin anew where all has been found."""
         if self._strategy is None:
-            self._sample = self._sample[np.argsort(-told.fitness, kind="stable")]
+            self._sample = self._sample[np.argsort(-told.guide, kind="stable")]
             self._strategy = self._begun()
         else:
-            self._strategy.tell(self._asked, -told.fitness)
+            self._strategy.tell(self._asked, -told.guide)
             if self._strategy.stop():
                 self._restarts += 1
                 self._strategy = self._begun()

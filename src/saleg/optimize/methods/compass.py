@@ -61,9 +61,9 @@ class _Search:
 
     def tell(self, told: Told) -> float:
         """Go to the best neighbour, or halve the step."""
-        best = int(np.argmax(told.fitness))
-        if self._at is None or told.fitness[best] > self._best:
-            self._at, self._best = self._asked[best], float(told.fitness[best])
+        best = int(np.argmax(told.guide))
+        if self._at is None or told.guide[best] > self._best:
+            self._at, self._best = self._asked[best], float(told.guide[best])
         else:
             self._step *= 0.5
             self.finished = self._step < self._settings.least_step

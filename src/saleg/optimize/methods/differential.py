@@ -79,7 +79,7 @@ class _Search:
 
     def tell(self, told: Told) -> float:
         """Let the solver go on."""
-        self._told.put(-told.fitness)
+        self._told.put(-told.guide)
         return mean_of(told.fitness)
 
     def __del__(self) -> None:

@@ -53,13 +53,13 @@ class _Search:
     finished = False
 
     def __init__(self, settings: NSGA2, start: Start):
-        from pymoo.algorithms.moo.nsga2 import NSGA2 as NSGA2OfPymoo
+        from pymoo.algorithms.moo import nsga2
         from pymoo.core.problem import Problem as Box
         from pymoo.core.termination import NoTermination
 
         rng = np.random.default_rng(start.seed)
         # Copies are cheap here, and mating again until there are none is not.
-        self._theirs = NSGA2OfPymoo(
+        self._theirs = nsga2.NSGA2(
             pop_size=settings.size,
             sampling=start.designs(settings.size, rng),
             eliminate_duplicates=False,
