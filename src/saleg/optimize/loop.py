@@ -14,6 +14,7 @@ import numpy as np
 
 from saleg.batch.identity import described
 from saleg.batch.workers import WorkersError, check_workers
+from saleg.design.terms import is_known
 from saleg.errors import Problem as Wrong
 from saleg.errors import nearest
 from saleg.optimize.log import Log, OptimisationError
@@ -296,8 +297,8 @@ class _Course:
             table = joined([*self._leaders, rows])
             first = len(table) - len(rows)
             leaders = self._method.leaders(self._problem, self._problem.told(table))
-            verified = table["verified"].to_numpy()
-            waiting = [row - first for row in leaders if row >= first + known and not verified[row]]
+            wanted = is_known(table) & ~table["verified"].to_numpy()
+            waiting = [row - first for row in leaders if row >= first + known and wanted[row]]
             if not waiting or not self._problem.has_multipliers:
                 self._leaders = [table.iloc[leaders]]
                 return rows
@@ -328,7 +329,5 @@ def joined(tables: list[pd.DataFrame]) -> pd.DataFrame:
 
     filled = [table for table in tables if len(table)] or tables[-1:]
     names = [name for name in filled[-1] if all(name in table for table in filled)]
-    columns = {
-        str(name): np.concatenate([table[name].to_numpy() for table in filled]) for name in names
-    }
-    return pd.DataFrame(columns)
+    given = [table if len(table.columns) == len(names) else table[names] for table in filled]
+    return pd.concat(given, ignore_index=True) if len(given) > 1 else given[0]
