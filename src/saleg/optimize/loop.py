@@ -184,6 +184,8 @@ class _Course:
         self._given = np.clip(given, 0.0, 1.0)
         figures = [name for name in self._problem.units if name != "score"]
         whole = set(figures) <= set(start)
+        start = start.copy()
+        start.attrs.clear()  # copied with every step otherwise
         held = start[figures if whole else list(self._problem.bounds)]
         self._start = hashlib.sha256(held.to_csv().encode()).hexdigest()
         if whole:
@@ -271,7 +273,7 @@ class _Course:
             if key not in self._known:
                 new.setdefault(key, number)
         values = self._values(designs[list(new.values())])
-        rows = self._problem.evaluate(values, **self._workers).assign(verified=False)
+        rows = self._problem.rows(values, **self._workers).assign(verified=False)
         place = dict(zip(new, range(len(new)), strict=True))
         pieces = [rows]
         for key in keys:
@@ -307,7 +309,7 @@ class _Course:
     def _with_multipliers(self, rows: pd.DataFrame, numbers: list[int]) -> pd.DataFrame:
         """Rows, of which some are evaluated again with their multipliers."""
         designs = rows[list(self._problem.bounds)].to_numpy(dtype=float)[numbers]
-        found = self._problem.evaluate(designs, multipliers=True, **self._workers)
+        found = self._problem.rows(designs, multipliers=True, **self._workers)
         columns = {str(name): rows[name].to_numpy().copy() for name in rows}
         for name in (*STABILITY, "score"):
             columns[name][numbers] = found[name].to_numpy()
