@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from saleg.compiler import plain, records
 from saleg.compiler.cache import usable_folder
 from saleg.compiler.controllers import control_of, nobody
+from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
-from saleg.compiler.source import NoSource, fingerprint, is_ours
+from saleg.compiler.source import fingerprint, is_ours
 from saleg.compiler.text import INTEGRATOR, compose
 from saleg.kernel.tuples import Control
 from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
@@ -129,7 +130,8 @@ def _composed(
     injected: dict[str, Any] = {}
     try:
         text = compose(classes, modules, kept=folder is not None)
-    except NoSource:  # what is compiled from bytecode is not kept
+    except NoSource as error:  # what is compiled from bytecode is not kept
+        warn_if_edited(error)
         folder = None
         text = compose(classes, modules, kept=False, injected=injected)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
