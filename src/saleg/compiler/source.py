@@ -26,6 +26,7 @@ from saleg.compiler.strength_reduction import eased
 from saleg.errors import LawError
 from saleg.laws import arguments
 from saleg.laws.base import Law
+from saleg.laws.contract import plain_function
 from saleg.laws.earlier_names import ATTRIBUTES
 
 ALLOWED_BUILTINS = frozenset(
@@ -205,17 +206,6 @@ class _Renamer(ast.NodeTransformer):
         self.generic_visit(node)
         node.attr = self.attributes.get(node.attr, node.attr)
         return node
-
-
-def plain_function(method: Any, owner: str) -> types.FunctionType:
-    """A method as the function that runs, one jitted already among them."""
-    function = getattr(method, "py_func", method)
-    if not isinstance(function, types.FunctionType):
-        raise LawError(
-            f"{owner} is a {type(method).__name__}; a law's method is a plain function: leave out "
-            "its decorator"
-        )
-    return function
 
 
 def _parsed(function: types.FunctionType, owner: str) -> ast.FunctionDef:

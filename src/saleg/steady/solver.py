@@ -15,6 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
+from saleg.compiler.text import check_methods
 from saleg.engine import Chamber, CombustionChamber, Engine, check_engine, warn_of_unusual
 from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError
@@ -261,6 +262,7 @@ def found_steady_state(
 def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> SteadyState:
     """Steady state of an engine whose numbers have been checked."""
     engine.check_laws()
+    check_methods(engine.laws.values())
     quick = effort is Effort.QUICK
     if not repeats_itself(engine):
         why = "a law depends on time or counts charges"
