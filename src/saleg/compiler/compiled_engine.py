@@ -125,7 +125,8 @@ def _composed(
     state: tuple[object, ...],
 ) -> Kernel:
     """Kernel for a choice of law classes in a certain state."""
-    own = [law.__name__ for law in _own(classes)]
+    kinds = dict.fromkeys(zip(classes, lengths, strict=True))
+    own = [kind for kind in kinds if not is_ours(kind[0])]
     folder = usable_folder()
     injected: dict[str, Any] = {}
     try:

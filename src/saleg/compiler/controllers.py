@@ -13,6 +13,7 @@ import numpy as np
 
 from saleg.compiler import plain
 from saleg.compiler.cache import usable_folder
+from saleg.compiler.diagnosis import diagnosed
 from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.module import load
 from saleg.compiler.records import lengths_of_all, names_of, numbers_of
@@ -80,7 +81,7 @@ def _load(
     classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], state: tuple[object, ...]
 ) -> Any:
     """Compiled function of a choice of law classes in a certain state."""
-    names = ", ".join(law.__name__ for law in dict.fromkeys(classes) if not is_ours(law))
+    kinds = dict.fromkeys(zip(classes, lengths, strict=True))
     from numba.core.errors import NumbaError
 
     folder = usable_folder()
@@ -94,7 +95,8 @@ def _load(
     try:
         return load(text, "controller", folder, injected).module.entry
     except NumbaError as error:
-        raise LawError(f"the laws {names} cannot be compiled: {error}") from error
+        own = [kind for kind in kinds if not is_ours(kind[0])]
+        raise LawError(diagnosed(own, error)) from error
 
 
 def _text(

@@ -233,7 +233,7 @@ def _globals_used(
     for node in ast.walk(tree):  # those of a comprehension or a function inside among them
         if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
             local.add(node.id)
-        elif isinstance(node, ast.FunctionDef):
+        elif isinstance(node, ast.FunctionDef) and node is not tree:
             local.add(node.name)
     closure = inspect.getclosurevars(function)
     used = {}

@@ -407,8 +407,8 @@ def not_found(engine: Engine, spent: int, evaluations: int, why: str) -> SteadyS
 
 def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
-    duration = FALLBACK_PERIODS * natural_period(engine)
-    run = integrate(engine, prepare(engine), Settings(duration, rtol=rtol))
+    start = prepare(engine)  # names a law that fails
+    run = integrate(engine, start, Settings(FALLBACK_PERIODS * natural_period(engine), rtol=rtol))
     steady = run.status in (Status.STEADY, Status.IDLING)
     strokes = run.orbit.strokes if steady and run.orbit is not None else None
     unsettled = run.status is Status.COMPLETED
