@@ -44,7 +44,7 @@ def diagnosed(laws: Sequence[Kind], error: NumbaError) -> str:
     return f"the laws {names} cannot be compiled: {_reason(error)}"
 
 
-def _trouble(law: type[Law], lengths: Lengths, method: str, base: type[Law]) -> str:
+def _trouble(law: Any, lengths: Lengths, method: str, base: type[Law]) -> str:
     """What is wrong with one method; empty if nothing is."""
     from numba.core.errors import NumbaError
 
