@@ -2,6 +2,10 @@
 
 One loop serves fixed steps on a grid and the adaptive pair. A step that crosses an event is
 shortened to end on it; there modes change and the next step starts afresh.
+
+Arguments shared by functions here: `P` the laws, `E` the engine's record, `C` the two chambers'
+records, `O` the options of the run (all in :mod:`saleg.kernel.layout`), `y` the state, `k` the
+rates of a step's stages.
 """
 
 from math import copysign, exp, log

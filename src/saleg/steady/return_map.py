@@ -207,7 +207,7 @@ class ReturnMap:
         return Search(int(code), *found[0].tolist())
 
     def jump(self, change: np.ndarray) -> None:
-        """Move the present state by a change of its vector, if that is long by a part of it."""
+        """Move the present state by a change of its vector; a long one is shortened."""
         z = self.vector(self.state)
         room = (FARTHEST * np.maximum(np.abs(z), 1.0) / np.maximum(np.abs(change), 1e-300)).min()
         read_vector(*self.state.records, self.state.y, z + min(room, 1.0) * change)
