@@ -328,7 +328,7 @@ def test_axes_that_do_not_fit_are_refused(base_run):
         (plotting.approach_to_steady_state, "abcd", "needs 4 axes, not 1"),
         (plotting.approach_to_steady_state, [1, 2, 3, 4], "one matplotlib axes here, not 1"),
         (plotting.pressure_volume, four.ravel(), "one matplotlib axes here, not 4 in a ndarray"),
-        (plotting.sankey, four[0, 0].figure, "one matplotlib axes here, not <"),
+        (plotting.energy_sankey, four[0, 0].figure, "one matplotlib axes here, not <"),
     ):
         with pytest.raises(SalegError, match=said):
             draw(base_run, ax)
