@@ -4,10 +4,12 @@ import dataclasses
 import functools
 import math
 
+import numba
 import pytest
 
 import saleg
 from saleg import LawError
+from saleg.compiler.compiled_engine import check_methods
 from saleg.compiler.diagnosis import diagnosed
 from saleg.laws import LinearLoad, LinearSprings
 from saleg.simulation.faulty_law import fault_near
@@ -172,6 +174,17 @@ def test_a_slip_is_named(base, force, said):
     for call in (lambda: saleg.simulate(engine, 0.1), lambda: saleg.steady_state(engine)):
         with pytest.raises(saleg.SalegError, match=rf"(?s)Own\.force\b.*{said}"):
             call()
+
+
+def test_nothing_is_refused_where_nothing_is_compiled(monkeypatch):
+    def printing(self, motion):
+        print(motion.x)
+        return -motion.x
+
+    with pytest.raises(LawError, match="built-in 'print'"):
+        check_methods([law(printing)])
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
+    check_methods([law(printing)])
 
 
 def test_laws_that_look_alike_are_allowed(base):

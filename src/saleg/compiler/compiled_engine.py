@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,7 +13,7 @@ from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
 from saleg.compiler.source import fingerprint, is_ours
-from saleg.compiler.text import INTEGRATOR, compose
+from saleg.compiler.text import INTEGRATOR, compose, methods_text
 from saleg.kernel.tuples import Control
 from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
@@ -93,6 +94,32 @@ def kernel_for(
     been changed in this process, as in a notebook.
     """
     return _kernel(_laws_in_order(engine, actuators), modules)
+
+
+def check_methods(laws: Iterable[Law]) -> None:
+    """Refuse laws of a user's that cannot be compiled, before any of them is called.
+
+    Where nothing is compiled, a law may do what Python does: print, for instance.
+
+    Raises
+    ------
+    LawError
+        Naming law, method and what in it cannot be compiled.
+    """
+    if plain.is_wanted():
+        return
+    for law in dict.fromkeys(map(type, laws)):
+        if not is_ours(law):
+            kind: Any = law
+            _check_methods(kind, fingerprint(law))
+
+
+@lru_cache(maxsize=256)
+def _check_methods(law: type[Law], state: tuple[object, ...]) -> None:
+    """The same of one class in a certain state."""
+    base: Any = next(base for base in law.__mro__ if "slot" in vars(base))
+    for method in base.compiled:
+        methods_text(law, method, "one", base, {})
 
 
 def _laws_in_order(engine: Engine, actuators: ActuatorLaw | None) -> list[Law]:

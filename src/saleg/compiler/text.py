@@ -8,15 +8,14 @@ from __future__ import annotations
 
 import ast
 import inspect
-from collections.abc import Iterable, Sequence
-from functools import lru_cache
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from saleg.compiler.imported_text import NoSource
 from saleg.compiler.module import without_source
 from saleg.compiler.records import OTHER_SLOTS
-from saleg.compiler.source import Borrowed, earlier_attributes, fingerprint, is_ours
+from saleg.compiler.source import Borrowed, earlier_attributes
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.errors import LawError
 from saleg.laws import Law
@@ -221,28 +220,6 @@ def methods_text(
         )
         return [NOT_EASED.format(name=f"{prefix}_{method}")] if eases else []
     return borrowed.definitions
-
-
-def check_methods(laws: Iterable[Law]) -> None:
-    """Refuse laws of a user's that cannot be compiled, before any of them is called.
-
-    Raises
-    ------
-    LawError
-        Naming law, method and what in it cannot be compiled.
-    """
-    for law in dict.fromkeys(map(type, laws)):
-        if not is_ours(law):
-            kind: Any = law
-            _check_methods(kind, fingerprint(law))
-
-
-@lru_cache(maxsize=256)
-def _check_methods(law: type[Law], state: tuple[object, ...]) -> None:
-    """The same of one class in a certain state."""
-    base: Any = next(base for base in law.__mro__ if "slot" in vars(base))
-    for method in base.compiled:
-        methods_text(law, method, "one", base, {})
 
 
 def _arguments(base: type[Law], method: str) -> list[str]:

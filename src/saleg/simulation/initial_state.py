@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler.text import check_methods
+from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.engine.start import Contents
 from saleg.errors import LawError, SalegError, StartError

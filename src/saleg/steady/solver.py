@@ -15,7 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
-from saleg.compiler.text import check_methods
+from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import Chamber, CombustionChamber, Engine, check_engine, warn_of_unusual
 from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError
