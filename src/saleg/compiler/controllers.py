@@ -13,9 +13,11 @@ import numpy as np
 
 from saleg.compiler import plain
 from saleg.compiler.cache import usable_folder
+from saleg.compiler.diagnosis import diagnosed
+from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.module import load
 from saleg.compiler.records import lengths_of_all, names_of, numbers_of
-from saleg.compiler.source import NoSource, fingerprint, is_ours
+from saleg.compiler.source import fingerprint, is_ours
 from saleg.compiler.text import COMPILED_HEADER, methods_text, own_text
 from saleg.errors import LawError
 from saleg.kernel import layout
@@ -79,29 +81,37 @@ def _load(
     classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], state: tuple[object, ...]
 ) -> Any:
     """Compiled function of a choice of law classes in a certain state."""
-    names = ", ".join(law.__name__ for law in dict.fromkeys(classes) if not is_ours(law))
+    kinds = dict.fromkeys(zip(classes, lengths, strict=True))
     from numba.core.errors import NumbaError
 
     folder = usable_folder()
+    injected: dict[str, Any] = {}
     try:
-        return load(_text(classes, lengths, folder is not None), "controller", folder).module.entry
-    except NoSource:
-        raise LawError(
-            f"the source of {names} cannot be had here: write it to a file or a notebook, or run "
-            "the controller with compiled=False"
-        ) from None
+        text = _text(classes, lengths, folder is not None)
+    except NoSource as error:  # what is compiled from bytecode is not kept
+        warn_if_edited(error)
+        folder = None
+        text = _text(classes, lengths, False, injected)
+    try:
+        return load(text, "controller", folder, injected).module.entry
     except NumbaError as error:
-        raise LawError(f"the laws {names} cannot be compiled: {error}") from error
+        own = [kind for kind in kinds if not is_ours(kind[0])]
+        raise LawError(diagnosed(own, error)) from error
 
 
-def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], kept: bool) -> str:
+def _text(
+    classes: tuple[type[Law], ...],
+    lengths: tuple[Lengths, ...],
+    kept: bool,
+    injected: dict[str, Any] | None = None,
+) -> str:
     """Text of a controller's module, whose machine code is kept on disk or not."""
     parts = ["import math", "from collections import namedtuple", "import numba"]
     parts += ["import numpy as np", COMPILED_HEADER, own_text("laws/arguments.py")]
     places, first = [], 0
     for (slot, base), law, long in zip(CONTROL_SLOTS.items(), classes, lengths, strict=True):
         (method,) = base.compiled
-        parts += methods_text(law, method, f"control_{slot}", base)
+        parts += methods_text(law, method, f"control_{slot}", base, injected)
         parts.append(
             f"@inline\ndef {slot}_{method}(P, held, signals):\n"
             f"    return control_{slot}_{method}(P.{slot}, held, signals)\n"

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from saleg.compiler import machine_code
+from saleg.compiler.diagnosis import Kind, diagnosed
 from saleg.errors import LawError
 from saleg.files.lock import locked
 
@@ -22,11 +23,11 @@ class Kernel:
         The composed module.
     lock : Path or None
         File that serialises compilation among processes.
-    laws : sequence of str
-        Names of the laws in it that are not the library's, for errors.
+    laws : sequence of Kind
+        Each class in it that is not the library's, for errors.
     """
 
-    def __init__(self, module: types.ModuleType, lock: Path | None, laws: Sequence[str] = ()):
+    def __init__(self, module: types.ModuleType, lock: Path | None, laws: Sequence[Kind] = ()):
         self.module = module
         self._lock = lock
         self._laws = laws
@@ -70,19 +71,10 @@ class Kernel:
         try:
             machine_code.compile_for(function, kinds)
         except NumbaError as error:
-            raise LawError(
-                f"the laws {', '.join(self._laws)} cannot be compiled: {_reason(error)}"
-            ) from error
+            raise LawError(diagnosed(self._laws, error)) from error
         except Exception:
             if self._lock is None:
                 raise
             for damaged in self._lock.parent.glob(f"__pycache__/{self._lock.stem}*"):
                 damaged.unlink(missing_ok=True)
             machine_code.compile_for(function, kinds)
-
-
-def _reason(error: Exception) -> str:
-    """What numba says of the cause, without the chain of what it was doing."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    telling = [line for line in lines if not line.startswith(("Failed in", "During", "File", "<"))]
-    return " ".join(telling[:2]) if telling else str(error)
