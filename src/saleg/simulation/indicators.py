@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saleg.engine import Chamber, CombustionChamber, Engine
+from saleg.kernel.control import NEAREST
 
 if TYPE_CHECKING:
     from saleg.laws import HeatRelease
@@ -148,6 +149,23 @@ def full_cycles(strokes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return strokes[starts], strokes[starts + 1]
 
 
+def beyond_ports(engine: Engine, strokes: np.ndarray) -> np.ndarray:
+    """Whether each stroke ended with the ports of a cylinder open."""
+    left, right = (
+        getattr(chamber, "port_closing", math.inf) - chamber.half_stroke
+        for chamber in engine.chambers
+    )
+    return np.asarray((strokes["x_end"] > left) | (-strokes["x_end"] > right))
+
+
+def stroke_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
+    """Geometric compression ratio of every stroke, between its dead centres [-]."""
+    start, end = strokes["x_start"], strokes["x_end"]
+    return np.asarray(
+        compression_ratio(engine, np.minimum(start, end), np.maximum(start, end)), dtype=float
+    )
+
+
 def cycle_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
     """Geometric compression ratio of every full cycle, between its outermost positions [-]."""
     out, back = full_cycles(strokes)
@@ -167,8 +185,11 @@ def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
     -------
     float or ndarray
         For a symmetric orbit ``(L + S/2) / (L - S/2)``. Without a cylinder, of both chambers.
+        Heads end the way.
     """
     left, right = engine.chambers
+    low = np.maximum(low, -NEAREST * left.half_stroke)
+    high = np.minimum(high, NEAREST * right.half_stroke)
     ratios = [
         (left.half_stroke + high) / (left.half_stroke + low),
         (right.half_stroke - low) / (right.half_stroke - high),
