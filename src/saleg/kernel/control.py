@@ -18,18 +18,21 @@ NEAREST = 1.0 - 1e-9
 
 @compiled
 def compression_ratio(C, low, high):
-    """Geometric compression ratio between two positions, the mean of the cylinders' [-].
+    """Geometric compression ratio between two positions, of the cylinders together [-].
 
     Without a cylinder, of both chambers. Heads end the way.
     """
     low = max(low, -NEAREST * C[LEFT].half_stroke)
     high = min(high, NEAREST * C[RIGHT].half_stroke)
-    left = clearance_of(C, LEFT, high) / clearance_of(C, LEFT, low)
-    right = clearance_of(C, RIGHT, low) / clearance_of(C, RIGHT, high)
-    burns_left = C[LEFT].lower_heating_value > 0.0
-    if burns_left == (C[RIGHT].lower_heating_value > 0.0):
-        return (left + right) / 2.0
-    return left if burns_left else right
+    alike = (C[LEFT].lower_heating_value > 0.0) == (C[RIGHT].lower_heating_value > 0.0)
+    greatest, least = 0.0, 0.0
+    for side in range(2):
+        c = C[side]
+        if alike or c.lower_heating_value > 0.0:
+            near, far = (low, high) if c.sign > 0.0 else (high, low)
+            greatest += c.area * clearance_of(C, side, far)
+            least += c.area * clearance_of(C, side, near)
+    return greatest / least
 
 
 @compiled

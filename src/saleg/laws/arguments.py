@@ -134,8 +134,8 @@ class Signals(NamedTuple):
     stroke : float
         Distance between the last two dead centres S [m].
     compression_ratio : float
-        Geometric, between the last two dead centres, the mean of the cylinders' [-]: for a
-        symmetric orbit ``(L + S/2) / (L - S/2)``.
+        Geometric, between the last two dead centres: greatest over least volume of the cylinders
+        together, ``(L + S/2) / (L - S/2)`` where they are alike [-].
     frequency : float
         ``1 / (2 x duration of the stroke)`` [Hz]; 0 before the first.
     power : float
@@ -150,9 +150,9 @@ class Signals(NamedTuple):
     maximum_stroke : float
         Greatest geometrically possible stroke [m], see :attr:`saleg.Engine.maximum_stroke`.
     rated_equivalence_ratio : float
-        Equivalence ratio the engine is built with [-].
+        Equivalence ratio the engine is built with, the mean of the cylinders with fuel [-].
     rated_intake_temperature : float
-        Intake temperature the engine is built with [K].
+        Intake temperature the engine is built with, the mean of theirs [K].
     """
 
     t: float

@@ -173,32 +173,30 @@ def cycle_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
 
 
 def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
-    """Geometric compression ratio between two positions, the mean of the cylinders' [-].
+    """Geometric compression ratio between two positions, of the cylinders together [-].
+
+    Their greatest volumes over their least: ``(L + S/2) / (L - S/2)`` for two that are alike, and
+    for a single cylinder its own. Without a cylinder, of both chambers.
 
     Parameters
     ----------
     engine : Engine
     low, high : float or ndarray
-        Dead centres [m].
+        Dead centres [m]; heads end the way.
 
     Returns
     -------
     float or ndarray
-        For a symmetric orbit ``(L + S/2) / (L - S/2)``. Without a cylinder, of both chambers.
-        Heads end the way.
     """
     left, right = engine.chambers
     low = np.maximum(low, -NEAREST * left.half_stroke)
     high = np.minimum(high, NEAREST * right.half_stroke)
-    ratios = [
-        (left.half_stroke + high) / (left.half_stroke + low),
-        (right.half_stroke - low) / (right.half_stroke - high),
-    ]
-    fired = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
-    chosen = [
-        ratio for ratio, counts in zip(ratios, fired, strict=True) if counts or not any(fired)
-    ]
-    return sum(chosen) / len(chosen)
+    greatest, least = 0.0, 0.0
+    for chamber, near, far in ((left, low, high), (right, -high, -low)):
+        if isinstance(chamber, CombustionChamber) or not engine.has_combustion:
+            greatest = greatest + chamber.area * (chamber.half_stroke + far)
+            least = least + chamber.area * (chamber.half_stroke + near)
+    return greatest / least
 
 
 def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:

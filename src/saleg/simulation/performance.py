@@ -59,8 +59,8 @@ class Performance:
     stroke : float
         Stroke [m].
     compression_ratio : float
-        Geometric compression ratio of the cylinders, ``(L + S/2) / (L - S/2)`` when the orbit is
-        symmetric [-].
+        Geometric compression ratio, greatest over least volume of the cylinders together [-]:
+        ``(L + S/2) / (L - S/2)`` where they are alike.
     frequency : float
         Cycles per second [Hz].
     power, rms_power : float
