@@ -8,8 +8,9 @@ from math import inf, isfinite, nan, pi
 
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import CONTROL_PARTS, LEFT, MEMORY, RIGHT
-from saleg.kernel.rhs import clearance_of, motor_angle
+from saleg.kernel.rhs import motor_angle
 from saleg.kernel.slots import actuators_follow, actuators_refused, call_at
+from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Commands
 
 # How near to a head a position counts, over the clearance at the midpoint.
