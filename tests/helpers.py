@@ -44,6 +44,17 @@ def bounce_engine(
     )
 
 
+def single_piston(base, *, mass=2.4, length=0.15, pressure=4e5, bore=0.064, cylinder=None, **load):
+    """The cylinder of the base case opposite an adiabatic bounce chamber."""
+    return Engine(
+        translator=Translator(mass=mass),
+        left=base.left if cylinder is None else cylinder,
+        right=BounceChamber(bore=bore, half_stroke=length, pressure=pressure),
+        springs=LinearSprings(stiffness=20e3),
+        alternator=LinearLoad(**{"load_constant": 30.0, **load}),
+    )
+
+
 def strokes_from_start(engine, count=2, **settings):
     """The first strokes of an engine and the state after them."""
     state = prepare(engine)
