@@ -6,7 +6,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from saleg.compiler import plain, records
-from saleg.compiler.cache import usable_folder
 from saleg.compiler.controllers import control_of, nobody
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
@@ -125,12 +124,11 @@ def _composed(
 ) -> Kernel:
     """Kernel for a choice of law classes in a certain state."""
     own = [law.__name__ for law in _own(classes)]
-    folder = usable_folder()
     injected: dict[str, Any] = {}
     try:
-        text = compose(classes, modules, kept=folder is not None)
-    except NoSource:  # what is compiled from bytecode is not kept
-        folder = None
-        text = compose(classes, modules, kept=False, injected=injected)
+        text = compose(classes, modules)
+    except NoSource:
+        text = compose(classes, modules, injected=injected)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
-    return Kernel(*load(text, "kernel", folder, injected), own)
+    # What is compiled from bytecode is not kept: the text does not say all of it.
+    return Kernel(*load(text, "kernel", injected, keeps=not injected), own)

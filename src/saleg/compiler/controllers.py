@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.compiler import plain
-from saleg.compiler.cache import usable_folder
 from saleg.compiler.module import load
 from saleg.compiler.records import lengths_of_all, names_of, numbers_of
 from saleg.compiler.source import NoSource, fingerprint, is_ours
@@ -33,7 +32,7 @@ _pointer = numba.types.CPointer(numba.types.float64)
 
 
 @numba.cfunc(
-    numba.types.void(_pointer, _pointer, _pointer, _pointer), error_model="numpy", cache={cache}
+    numba.types.void(_pointer, _pointer, _pointer, _pointer), error_model="numpy", cache=ON_DISK
 )
 def entry(numbers_at, held_at, signals_at, commands_at):
 {body}
@@ -82,9 +81,8 @@ def _load(
     names = ", ".join(law.__name__ for law in dict.fromkeys(classes) if not is_ours(law))
     from numba.core.errors import NumbaError
 
-    folder = usable_folder()
     try:
-        return load(_text(classes, lengths, folder is not None), "controller", folder).module.entry
+        return load(_text(classes, lengths), "controller").module.entry
     except NoSource:
         raise LawError(
             f"the source of {names} cannot be had here: write it to a file or a notebook, or run "
@@ -94,8 +92,8 @@ def _load(
         raise LawError(f"the laws {names} cannot be compiled: {error}") from error
 
 
-def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], kept: bool) -> str:
-    """Text of a controller's module, whose machine code is kept on disk or not."""
+def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...]) -> str:
+    """Text of a controller's module."""
     parts = ["import math", "from collections import namedtuple", "import numba"]
     parts += ["import numpy as np", COMPILED_HEADER, own_text("laws/arguments.py")]
     places, first = [], 0
@@ -113,7 +111,7 @@ def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], kept: bo
         places.append(f"{slot}_numbers({', '.join(values)})")
     parts.append(f"all_numbers = namedtuple('all_numbers', {list(CONTROL_SLOTS)})")
     parts.append(own_text("kernel/decide.py"))
-    parts.append(ENTRY.format(cache=kept, body=_body(places, first)))
+    parts.append(ENTRY.format(body=_body(places, first)))
     return "\n".join(parts) + "\n"
 
 

@@ -61,15 +61,14 @@ compiled = numba.njit(
     error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
 )
 """
-CACHED_ON_DISK = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=True)\n'
-CACHED_IN_MEMORY = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True)\n'
+#: What a module is loaded with says whether it is kept.
+CACHED = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)\n'
 
 
 def compose(
     classes: Sequence[type[Law]],
     modules: Sequence[str] = INTEGRATOR,
     *,
-    kept: bool = True,
     injected: dict[str, Any] | None = None,
 ) -> str:
     """Text of a composed module.
@@ -80,8 +79,6 @@ def compose(
         Classes of the laws, in the order of the record: left, right, engine, actuators.
     modules : sequence of str
         Modules of the kernel.
-    kept : bool
-        Whether machine code of entry points is kept on disk.
     injected : dict, optional
         Takes the methods whose source cannot be had, by the names the text calls them.
 
@@ -96,7 +93,7 @@ def compose(
     left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
     parts = ["import math", "import numba", "import numpy as np", ""]
     parts += [f"from math import exp as {EXPONENTIAL}"]
-    parts += [COMPILED_HEADER + (CACHED_ON_DISK if kept else CACHED_IN_MEMORY)]
+    parts += [COMPILED_HEADER + CACHED]
     parts += [own_text(name) for name in BEFORE_SLOTS]
     eases = "rhs" in modules
     for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
