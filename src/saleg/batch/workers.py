@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import multiprocessing.process
 import os
+import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
@@ -15,6 +18,7 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import nullcontext
+from functools import lru_cache, partial
 from typing import TypeVar
 
 from saleg.quantities import is_whole
@@ -104,13 +108,14 @@ def _sent_out(
 ) -> Iterator[tuple[int, Result]]:
     """Send pieces out, no more than `most` at a time; what gets lost is put into `lost`."""
     waiting: dict[Future[Result], tuple[int, Piece]] = {}
+    done_there = partial(_at_work, work)
     try:
         for piece in pieces:
             if lost:
                 lost.append(piece)
                 continue
             try:
-                waiting[pool.submit(work, piece[1])] = piece
+                waiting[pool.submit(done_there, piece[1])] = piece
             except LOST:
                 lost.append(piece)
             if len(waiting) >= most:
@@ -135,3 +140,30 @@ def _some(
             lost.append(piece)
         else:
             yield piece[0], result
+
+
+def _at_work(work: Callable[[Piece], Result], piece: Piece) -> Result:
+    """Do a piece, in whatever process."""
+    end_with_parent()
+    return work(piece)
+
+
+def end_with_parent() -> None:
+    """From now on end a process of a pool when the one that made it is gone.
+
+    One that was killed cannot say so, and a worker would wait for work without end.
+    """
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        _watch(parent)
+
+
+@lru_cache
+def _watch(parent: multiprocessing.process.BaseProcess) -> None:
+    """End this process after another, watched by a thread."""
+
+    def end() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=end, name="end with parent", daemon=True).start()
