@@ -14,13 +14,18 @@ from saleg.files.signals import ending_in_order, held_off
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 
 
-@pytest.mark.parametrize("place", [new_file, new_folder])
-def test_what_is_half_written_is_removed_on_sigterm(tmp_path, place):
-    with pytest.raises(SystemExit) as ended, place(tmp_path / "above" / "run") as temporary:
-        target = temporary / "part" if temporary.is_dir() else temporary
-        target.write_text("half")
+def terminated_while_writing(place, target):
+    with place(target) as temporary:
+        file = temporary / "part" if temporary.is_dir() else temporary
+        file.write_text("half")
         os.kill(os.getpid(), signal.SIGTERM)
         time.sleep(5.0)
+
+
+@pytest.mark.parametrize("place", [new_file, new_folder])
+def test_what_is_half_written_is_removed_on_sigterm(tmp_path, place):
+    with pytest.raises(SystemExit) as ended:
+        terminated_while_writing(place, tmp_path / "above" / "run")
     assert ended.value.code == 128 + signal.SIGTERM
     assert list(tmp_path.iterdir()) == []
     assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
@@ -37,16 +42,20 @@ def test_a_handler_of_the_users_own_is_left_alone():
         signal.signal(signal.SIGTERM, before)
 
 
-def test_signals_come_after_the_moment_they_are_held_off():
+@pytest.mark.parametrize(
+    ("number", "end"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)]
+)
+def test_signals_come_after_the_moment_they_are_held_off(number, end):
     done = []
-    with pytest.raises(KeyboardInterrupt), held_off():
-        os.kill(os.getpid(), signal.SIGINT)
-        done.append(True)
+
+    def work():
+        with ending_in_order(), held_off():
+            os.kill(os.getpid(), number)
+            done.append(True)
+
+    with pytest.raises(end):
+        work()
     assert done
-    with pytest.raises(SystemExit), ending_in_order(), held_off():
-        os.kill(os.getpid(), signal.SIGTERM)
-        done.append(True)
-    assert len(done) == 2
 
 
 def test_a_terminated_command_leaves_nothing(tmp_path):

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import ast
 import inspect
+import pkgutil
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from saleg.compiler import machine_code
@@ -21,7 +21,6 @@ from saleg.errors import LawError
 from saleg.laws import Law
 from saleg.laws.base import CHAMBER_SLOTS
 
-PACKAGE = Path(__file__).resolve().parent.parent
 #: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
 BEFORE_SLOTS = (
     "laws/arguments.py",
@@ -204,7 +203,7 @@ def _arguments(base: type[Law], method: str) -> list[str]:
 
 def own_text(name: str) -> str:
     """Text of one of our modules without its docstring and its imports from this package."""
-    text = (PACKAGE / name).read_text(encoding="utf-8")
+    text = (pkgutil.get_data("saleg", name) or b"").decode("utf-8").replace("\r\n", "\n")
     lines = text.splitlines()
     drop: set[int] = set()
     for index, node in enumerate(ast.parse(text).body):
