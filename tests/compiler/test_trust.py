@@ -197,3 +197,23 @@ def test_a_full_disk_leaves_kernels_in_memory(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "replace", full)
     with pytest.warns(RuntimeWarning, match="No space left"):
         assert doubled() is None
+
+
+CONTROLLER = """
+import numba
+
+@numba.cfunc("float64(float64)", cache=ON_DISK)
+def entry(x):
+    return 2.0 * x
+"""
+
+
+def test_damaged_code_of_a_controller_is_mended(tmp_path, monkeypatch):
+    """It is loaded as its module is executed."""
+    monkeypatch.setenv("SALEG_CACHE_DIR", str(tmp_path))
+    index = index_of(load(CONTROLLER, "toy").kept)
+    for damage in (b"", b"no pickle"):
+        index.write_bytes(damage)
+        module, kept = load(CONTROLLER, "toy")
+        assert module.entry.ctypes(1.5) == 3.0
+        assert index_of(kept).stat().st_size > 40
