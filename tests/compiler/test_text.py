@@ -8,10 +8,10 @@ import pytest
 import saleg
 import saleg.compiler
 from saleg import LawError
-from saleg.compiler import machine_code
+from saleg.compiler import machine_code, search
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.compiler.module import load
-from saleg.compiler.text import INTEGRATOR, compose, own_text
+from saleg.compiler.text import INTEGRATOR, compose, compose_search, own_text
 from saleg.laws.base import CHAMBER_SLOTS
 
 
@@ -78,10 +78,19 @@ def test_docstrings_of_modules_and_our_imports_are_stripped():
     assert "def take_step" in step
 
 
+def test_the_search_is_composed_once_without_any_law(base):
+    found = compose_search()
+    assert "# --- compiler/run_at.py" in found
+    assert "# --- kernel/orbit.py" in found
+    assert "# --- kernel/rhs.py" not in found
+    assert "# --- kernel/orbit.py" not in compose(classes_of(base))
+
+
 def test_without_addresses_the_integrator_is_called_by_name(base, monkeypatch):
-    assert "# --- compiler/run_at.py" in compose(classes_of(base))
+    assert search.modules() == INTEGRATOR
     gone = "numba.core.codegen:JITCodeLibrary.gone"
     monkeypatch.setattr(machine_code, "ADDRESS_NEEDS", (*machine_code.ADDRESS_NEEDS, gone))
-    found = compose(classes_of(base))
+    found = compose(classes_of(base), search.modules())
     assert "# --- compiler/run_at.py" not in found
+    assert "# --- kernel/orbit.py" in found
     assert "# --- kernel/run_plainly.py" in found

@@ -8,7 +8,7 @@ Three facts to begin with:
   along (helpers, constants) gets a prefix of its slot.
 - **This is the order:** what laws are shown (``laws/arguments``), what of the kernel needs no law,
   the slots filled with laws (in place of ``kernel/slots``), then the kernel: ``rhs``, ``step``,
-  ``events``, ... ``orbit``.
+  ``events``, ... ``integrate``.
 
 So a composed module reads, much shortened::
 
@@ -41,6 +41,8 @@ Where to look: :mod:`~saleg.compiler.compiled_engine` is the door the other floo
 :mod:`~saleg.compiler.strength_reduction` makes cheap; :mod:`~saleg.compiler.module` executes the
 text, kept in the :mod:`~saleg.compiler.cache`; :mod:`~saleg.compiler.kernel` calls it, through
 :mod:`~saleg.compiler.machine_code`; :mod:`~saleg.compiler.records` holds the numbers.
-:mod:`~saleg.compiler.controllers` are composed by themselves. :mod:`~saleg.compiler.plain` does
-without all of it. ``call_at`` and ``run_at`` are texts that composed modules take in.
+:mod:`~saleg.compiler.controllers` are composed by themselves, and so is the
+:mod:`~saleg.compiler.search` for steady states, which needs no law and is compiled once for all.
+:mod:`~saleg.compiler.plain` does without all of it. ``call_at`` and ``run_at`` are texts that
+composed modules take in.
 """

@@ -12,7 +12,6 @@ import pkgutil
 from collections.abc import Sequence
 from typing import Any
 
-from saleg.compiler import machine_code
 from saleg.compiler.module import without_source
 from saleg.compiler.records import OTHER_SLOTS
 from saleg.compiler.source import Borrowed, NoSource, earlier_attributes
@@ -28,10 +27,9 @@ BEFORE_SLOTS = (
     "kernel/tuples.py",
     "kernel/logarithms.py",
     "kernel/layout.py",
+    "kernel/state.py",
     "compiler/call_at.py",
 )
-#: How the search for steady states calls the integrator, and how if numba has no addresses.
-RUN_AT, RUN_PLAINLY = "compiler/run_at.py", "kernel/run_plainly.py"
 #: Modules of the kernel that make up the integrator.
 INTEGRATOR = (
     "rhs",
@@ -42,8 +40,18 @@ INTEGRATOR = (
     "switch",
     "observe",
     "integrate",
-    "orbit",
 )
+#: The return map and the search for its fixed points: they use no law, and call the integrator by
+#: its address. Where numba has no addresses it is compiled into them.
+SEARCH = (
+    "laws/arguments.py",
+    "kernel/tuples.py",
+    "kernel/layout.py",
+    "kernel/state.py",
+    "kernel/orbit.py",
+    "compiler/run_at.py",
+)
+INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "run_plainly")
 
 #: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. Only entry points get
 #: wrappers for Python, which halves the time to compile. Nothing in a kernel allocates, so nothing
@@ -90,18 +98,30 @@ def compose(
     """
     n = len(CHAMBER_SLOTS)
     left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
-    parts = ["import math", "import numba", "import numpy as np", ""]
-    parts += [f"from math import exp as {EXPONENTIAL}"]
-    parts += [COMPILED_HEADER + CACHED]
-    parts += [own_text(name) for name in BEFORE_SLOTS]
+    parts = [*_header(), *map(own_text, BEFORE_SLOTS)]
     eases = "rhs" in modules
     for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
         parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
     for (name, base), law in zip(OTHER_SLOTS.items(), rest, strict=True):
         parts += _engine_slot(name, base, law, injected)
     parts += [own_text(f"kernel/{name}.py") for name in modules]
-    if "orbit" in modules:
-        parts.append(own_text(RUN_AT if machine_code.has_addresses() else RUN_PLAINLY))
+    return _joined(parts)
+
+
+def compose_search() -> str:
+    """Text of the return map and the search for its fixed points, which use no law."""
+    return _joined([*_header(), *map(own_text, SEARCH)])
+
+
+def _header() -> list[str]:
+    """What every composed module begins with."""
+    parts = ["import math", "import numba", "import numpy as np", ""]
+    parts += [f"from math import exp as {EXPONENTIAL}"]
+    return [*parts, COMPILED_HEADER + CACHED]
+
+
+def _joined(parts: Sequence[str]) -> str:
+    """Text of a module of these parts."""
     text = "\n".join(parts) + "\n"
     _check_names(text)
     return text

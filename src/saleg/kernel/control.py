@@ -71,7 +71,7 @@ def ask(E, control):
 
 @inline
 def in_force(E, load_weight, amplitude, equivalence_ratio, intake_temperature):
-    """Commands in force, with these values of the quantities whose actuators may lag."""
+    """Commands that act now; quantities whose actuators may lag have the values given."""
     return Commands(
         motoring=E.motoring,
         load_weight=load_weight,

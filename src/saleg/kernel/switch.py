@@ -37,8 +37,6 @@ from saleg.kernel.layout import (
     LATE,
     LEFT,
     MOTORED,
-    N_ALL,
-    N_PEAKS,
     N_STATE,
     OPEN,
     PEAK_ACCELERATION,
@@ -54,7 +52,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import charge_of, clearance_of, gas_of, refresh
+from saleg.kernel.rhs import charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
     friction_at_dead_centre,
@@ -67,6 +65,7 @@ from saleg.kernel.slots import (
     misfires_happens,
     springs_energy,
 )
+from saleg.kernel.state import begin_stroke, clearance_of
 from saleg.laws.arguments import Motion, Stroke
 
 # Longest first step of a combustion, over its duration.
@@ -270,23 +269,6 @@ def write_stroke(P, E, C, y, peaks, row):
         row.internal_energy[side] = internal_energy(P, C, side, y)
         burnt = burnt_mass(P, C, side, E.t) if c.mode == BURNING else 0.0
         row.fuel_energy[side] = (c.fuel - burnt) * c.lower_heating_value
-
-
-@compiled
-def begin_stroke(E, C, y, peaks):
-    """Reset the quantities that are counted per stroke."""
-    for n in range(N_STATE, N_ALL):
-        y[n] = 0.0
-    for peak in range(N_PEAKS):
-        peaks[peak] = 0.0
-    for side in range(2):
-        C[side].fresh_fuel_energy = 0.0
-        C[side].exhaust_energy = 0.0
-        C[side].exhaust_fuel_energy = 0.0
-        C[side].ignition_time = -1.0
-        C[side].ignition_height = 0.0
-    E.x_dead_centre = y[X]
-    E.t_dead_centre = E.t
 
 
 @compiled

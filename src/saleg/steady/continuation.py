@@ -259,7 +259,7 @@ class _Follower:
         return self.engine.replace(**{self.path: self.start + s * self.way})
 
     def return_map(self, s: float, like: State) -> tuple[ReturnMap, State]:
-        """Return map there, and a state to put vectors into, in the modes of another."""
+        """Return map of that engine, and a state for its vectors, in the modes of another."""
         engine = self.engine_at(s)
         state = prepare(engine)
         for name in ("mode", "armed"):
@@ -362,7 +362,7 @@ class _Follower:
         return None
 
     def settled(self, after: State, like: State) -> State:
-        """State to take modes from: the image, whose modes are those of the orbit itself."""
+        """The state before, with the modes of its image, which are those of the orbit itself."""
         kept = like.copy()
         for name in ("mode", "armed"):
             kept.chambers[name] = after.chambers[name]
