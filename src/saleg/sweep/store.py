@@ -73,22 +73,22 @@ class Folder:
         with _writing(self.path):
             if self.path.is_dir():
                 # Another process may be beginning: it makes the lock before all else.
-                self._refuse_strangers(table_text(points), unless=LOCK)
+                self._refuse_strangers(table_text(points), DESCRIPTION, LOCK)
             self.path.mkdir(parents=True, exist_ok=True)
             with open(self.path / LOCK, "ab"):
                 pass
         with locked(self.path / LOCK):
-            self._refuse_strangers(table_text(points), unless=DESCRIPTION)
+            self._refuse_strangers(table_text(points), DESCRIPTION)
             self._claim(json.loads(json.dumps(identity)), points, begun_by)
             yield
 
-    def _refuse_strangers(self, points: str, unless: str) -> None:
-        """Refuse a folder with more in it than what an interrupted start left, unless a file is."""
+    def _refuse_strangers(self, points: str, *signs: str) -> None:
+        """Refuse a folder with more in it than an interrupted start left, and none of these."""
         for entry in self.path.iterdir():
             ours = entry.name == LOCK or entry.name.startswith((f".{DESCRIPTION}", f".{POINTS}"))
             if entry.name == POINTS:
                 ours = _read(entry) == points
-            if not ours and not (self.path / unless).exists():
+            if not ours and not any((self.path / sign).exists() for sign in signs):
                 raise SweepError(
                     f"{self.path} is no folder of a sweep: it holds {entry.name}; name another "
                     "folder"
