@@ -96,3 +96,22 @@ def border(table, name):
     assert len(at) == 1
     i = at[0]
     return x[i] - y[i] * (x[i + 1] - x[i]) / (y[i + 1] - y[i])
+
+
+def compiled_method(law, method):
+    """A method of a law as the kernel has it, of the arguments after ``self``."""
+    import math
+
+    import numba
+    import numpy as np
+
+    from saleg.compiler.records import record_of
+    from saleg.compiler.text import methods_text
+
+    names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
+    base = next(kind for kind in type(law).__mro__ if "slot" in vars(kind))
+    exec("\n".join(methods_text(type(law), method, "one", base, names)), names)
+    record = np.zeros(1, record_of(law))[0]
+    for name in record.dtype.names:
+        record[name] = getattr(law, name, 0.0)
+    return lambda *arguments: names[f"one_{method}"](record, *arguments)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import multiprocessing.process
 import os
+import pickle
 import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator
@@ -31,6 +32,8 @@ Result = TypeVar("Result")
 UNDER_WAY = 4
 #: What is raised in place of a result when workers, not the work, have failed.
 LOST = (BrokenExecutor, CancelledError, ConnectionError)
+#: What is raised where work cannot be packed, though the work itself may raise the latter too.
+UNSENT = (pickle.PicklingError, AttributeError, TypeError)
 
 
 class WorkersError(SettingsError):
@@ -80,6 +83,11 @@ def completed(
     ------
     (int, result)
 
+    Raises
+    ------
+    WorkersError
+        If the work cannot be sent to another process.
+
     Warns
     -----
     RuntimeWarning
@@ -119,16 +127,18 @@ def _sent_out(
             except LOST:
                 lost.append(piece)
             if len(waiting) >= most:
-                yield from _some(waiting, lost)
+                yield from _some(work, waiting, lost)
         while waiting:
-            yield from _some(waiting, lost)
+            yield from _some(work, waiting, lost)
     finally:
         for future in waiting:
             future.cancel()
 
 
 def _some(
-    waiting: dict[Future[Result], tuple[int, Piece]], lost: list[tuple[int, Piece]]
+    work: Callable[[Piece], Result],
+    waiting: dict[Future[Result], tuple[int, Piece]],
+    lost: list[tuple[int, Piece]],
 ) -> Iterator[tuple[int, Result]]:
     """Wait for at least one result and give all there are."""
     done, _ = wait(waiting, return_when=FIRST_COMPLETED)
@@ -138,8 +148,28 @@ def _some(
             result = future.result()
         except LOST:
             lost.append(piece)
+        except UNSENT:
+            _check_travels((work, piece[1]))
+            raise
         else:
             yield piece[0], result
+
+
+def _check_travels(parcel: object) -> None:
+    """Refuse work that cannot be sent to another process.
+
+    Raises
+    ------
+    WorkersError
+        Naming what cannot.
+    """
+    try:
+        pickle.dumps(parcel)
+    except UNSENT as error:
+        raise WorkersError(
+            f"the work cannot be sent to another process: {error}; define its classes and "
+            "functions at the top of a module, or let threads do it (executor=None)"
+        ) from error
 
 
 def _at_work(work: Callable[[Piece], Result], piece: Piece) -> Result:

@@ -37,8 +37,10 @@ So a composed module reads, much shortened::
 ``P`` is the record of all numbers of all laws, so another number compiles nothing.
 
 Where to look: :mod:`~saleg.compiler.compiled_engine` is the door the other floors come in by;
-:mod:`~saleg.compiler.text` composes, of methods that :mod:`~saleg.compiler.source` makes ready and
-:mod:`~saleg.compiler.strength_reduction` makes cheap; :mod:`~saleg.compiler.module` executes the
+:mod:`~saleg.compiler.text` composes, of methods that :mod:`~saleg.compiler.imported_text` finds,
+:mod:`~saleg.compiler.slips` checks, :mod:`~saleg.compiler.source` makes ready and
+:mod:`~saleg.compiler.strength_reduction` makes cheap; :mod:`~saleg.compiler.diagnosis` names the
+one that fails; :mod:`~saleg.compiler.module` executes the
 text, kept in the :mod:`~saleg.compiler.cache`; :mod:`~saleg.compiler.kernel` calls it, through
 :mod:`~saleg.compiler.machine_code`; :mod:`~saleg.compiler.records` holds the numbers.
 :mod:`~saleg.compiler.controllers` are composed by themselves, and so is the

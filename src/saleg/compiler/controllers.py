@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.compiler import plain
+from saleg.compiler.diagnosis import diagnosed
+from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.module import load
 from saleg.compiler.records import lengths_of_all, names_of, numbers_of
-from saleg.compiler.source import NoSource, fingerprint, is_ours
+from saleg.compiler.source import fingerprint, is_ours
 from saleg.compiler.text import COMPILED_HEADER, methods_text, own_text
 from saleg.errors import LawError
 from saleg.kernel import layout
@@ -78,28 +80,35 @@ def _load(
     classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], state: tuple[object, ...]
 ) -> Any:
     """Compiled function of a choice of law classes in a certain state."""
-    names = ", ".join(law.__name__ for law in dict.fromkeys(classes) if not is_ours(law))
+    kinds = dict.fromkeys(zip(classes, lengths, strict=True))
     from numba.core.errors import NumbaError
 
+    injected: dict[str, Any] = {}
     try:
-        return load(_text(classes, lengths), "controller").module.entry
-    except NoSource:
-        raise LawError(
-            f"the source of {names} cannot be had here: write it to a file or a notebook, or run "
-            "the controller with compiled=False"
-        ) from None
+        text = _text(classes, lengths)
+    except NoSource as error:
+        warn_if_edited(error)
+        text = _text(classes, lengths, injected)
+    try:
+        # What is compiled from bytecode is not kept: the text does not say all of it.
+        return load(text, "controller", injected, keeps=not injected).module.entry
     except NumbaError as error:
-        raise LawError(f"the laws {names} cannot be compiled: {error}") from error
+        own = [kind for kind in kinds if not is_ours(kind[0])]
+        raise LawError(diagnosed(own, error)) from error
 
 
-def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...]) -> str:
+def _text(
+    classes: tuple[type[Law], ...],
+    lengths: tuple[Lengths, ...],
+    injected: dict[str, Any] | None = None,
+) -> str:
     """Text of a controller's module."""
     parts = ["import math", "from collections import namedtuple", "import numba"]
     parts += ["import numpy as np", COMPILED_HEADER, own_text("laws/arguments.py")]
     places, first = [], 0
     for (slot, base), law, long in zip(CONTROL_SLOTS.items(), classes, lengths, strict=True):
         (method,) = base.compiled
-        parts += methods_text(law, method, f"control_{slot}", base)
+        parts += methods_text(law, method, f"control_{slot}", base, injected)
         parts.append(
             f"@inline\ndef {slot}_{method}(P, held, signals):\n"
             f"    return control_{slot}_{method}(P.{slot}, held, signals)\n"

@@ -9,6 +9,7 @@ from typing import Any
 
 from saleg.compiler import machine_code
 from saleg.compiler.cache import Kept
+from saleg.compiler.diagnosis import Kind, diagnosed
 from saleg.errors import LawError
 from saleg.files.lock import locked
 
@@ -22,11 +23,11 @@ class Kernel:
         The composed module.
     kept : Kept or None
         Where its text and machine code are on disk; None if nothing is kept.
-    laws : sequence of str
-        Names of the laws in it that are not the library's, for errors.
+    laws : sequence of Kind
+        Each class in it that is not the library's, for errors.
     """
 
-    def __init__(self, module: types.ModuleType, kept: Kept | None, laws: Sequence[str] = ()):
+    def __init__(self, module: types.ModuleType, kept: Kept | None, laws: Sequence[Kind] = ()):
         self.module = module
         self._kept = kept
         self._laws = laws
@@ -76,13 +77,4 @@ class Kernel:
             else:
                 self._kept.mended(compile_now)
         except NumbaError as error:
-            raise LawError(
-                f"the laws {', '.join(self._laws)} cannot be compiled: {_reason(error)}"
-            ) from error
-
-
-def _reason(error: Exception) -> str:
-    """What numba says of the cause, without the chain of what it was doing."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    telling = [line for line in lines if not line.startswith(("Failed in", "During", "File", "<"))]
-    return " ".join(telling[:2]) if telling else str(error)
+            raise LawError(diagnosed(self._laws, error)) from error

@@ -15,6 +15,7 @@ import numpy as np
 
 from saleg.compiler import machine_code
 from saleg.compiler.cache import Kept, usable_folder, warn_of_no_cache
+from saleg.errors import LawError
 from saleg.files.atomic import write_text
 from saleg.files.lock import locked
 
@@ -114,17 +115,23 @@ def without_source(
 
     seen = {} if seen is None else seen
     if id(function) in seen:
+        if seen[id(function)] is None:
+            raise LawError(f"{function.__qualname__} calls itself; write it as a loop")
         return seen[id(function)]
+    seen[id(function)] = None  # under way
+
+    def compiled(value: Any) -> Any:
+        is_function = isinstance(value, types.FunctionType)
+        return without_source(value, attributes, seen) if is_function else value
+
     names = {
-        name: without_source(value, attributes, seen)
-        if isinstance(value, types.FunctionType)
-        else value
-        for name, value in inspect.getclosurevars(function).globals.items()
+        name: compiled(value) for name, value in inspect.getclosurevars(function).globals.items()
     }
+    cells = tuple(
+        types.CellType(compiled(cell.cell_contents)) for cell in function.__closure__ or ()
+    )
     code = function.__code__
     code = code.replace(co_names=tuple(attributes.get(name, name) for name in code.co_names))
-    copy = types.FunctionType(
-        code, names, function.__name__, function.__defaults__, function.__closure__
-    )
+    copy = types.FunctionType(code, names, function.__name__, function.__defaults__, cells)
     seen[id(function)] = numba.njit(forceinline=True, error_model="numpy", nogil=True)(copy)
     return seen[id(function)]

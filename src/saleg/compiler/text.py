@@ -12,13 +12,15 @@ import pkgutil
 from collections.abc import Sequence
 from typing import Any
 
+from saleg.compiler.imported_text import NoSource
 from saleg.compiler.module import without_source
 from saleg.compiler.records import OTHER_SLOTS
-from saleg.compiler.source import Borrowed, NoSource, earlier_attributes
+from saleg.compiler.source import Borrowed, earlier_attributes
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.errors import LawError
 from saleg.laws import Law
 from saleg.laws.base import CHAMBER_SLOTS
+from saleg.laws.contract import plain_function
 
 #: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
 BEFORE_SLOTS = (
@@ -197,13 +199,12 @@ def methods_text(
     eases: bool = False,
 ) -> list[str]:
     """Definitions needed for one method of a law, as a function ``{prefix}_{method}``."""
-    function = getattr(law, method)
     owner = f"{law.__name__}.{method}"
-    given = list(inspect.signature(function).parameters)[1:]
+    function = plain_function(getattr(law, method), owner)
     wanted = _arguments(base, method)
-    if len(given) != len(wanted):
+    if function.__code__.co_argcount != len(wanted) + 1:
         raise LawError(f"{owner} must take ({', '.join(['self', *wanted])})")
-    borrowed = Borrowed(f"{prefix}_{method}__", owner)
+    borrowed = Borrowed(f"{prefix}_{method}__", owner, getattr(base, method))
     add = borrowed.add_eased_method if eases else borrowed.add_method
     try:
         add(law, function, f"{prefix}_{method}")

@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.engine.start import Contents
-from saleg.errors import StartError
+from saleg.errors import LawError, SalegError, StartError
 from saleg.kernel import layout
 from saleg.kernel.rhs import refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
+from saleg.simulation.faulty_law import Fault, asked
 
 if TYPE_CHECKING:
     from saleg.engine import Chamber, Engine
@@ -63,18 +65,37 @@ def prepare(engine: Engine) -> State:
     Raises
     ------
     LawError
-        If a law cannot become part of a kernel.
+        If a law cannot become part of a kernel, or gives no number.
     StartError
         If a law overflows or divides by zero there.
     """
     engine.check_laws()
+    check_methods(engine.laws.values())
     try:
         return _prepare(engine)
-    except (ArithmeticError, ValueError) as error:
-        raise StartError(
-            f"a law cannot be evaluated at the start ({error}): check its parameters, or begin "
-            "with another start"
-        ) from error
+    except SalegError:
+        raise
+    except Exception as error:
+        fault = _fault_of(engine)
+        if isinstance(error, (ArithmeticError, ValueError)):
+            raise StartError(
+                f"a law cannot be evaluated at the start ({fault or error}): check its "
+                "parameters, or begin with another start"
+            ) from error
+        if fault:
+            raise LawError(fault) from error
+        raise
+
+
+def _fault_of(engine: Engine) -> str:
+    """Method of a law that keeps an engine from starting; empty if none does."""
+    try:
+        _prepare(asked(engine))
+    except Fault as fault:
+        return str(fault)
+    except (ArithmeticError, ValueError):  # not a law's
+        return ""
+    return ""
 
 
 def _prepare(engine: Engine) -> State:
