@@ -331,6 +331,8 @@ class Dividing(LoadControl):
     ("part", "error"), [(Asserting(), "AssertionError"), (Dividing(), "ZeroDivisionError")]
 )
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+# pytest writes asserts anew, so their code is not that of this file.
+@pytest.mark.filterwarnings("ignore:the text of Asserting:saleg.SalegWarning")
 def test_a_part_that_raises_ends_the_run_and_is_named(transient, part, error, compiled):
     run = control.simulate(transient, Controller(load_control=part), 0.3, compiled=compiled)
     assert run.status is Status.CONTROLLER_FAULT
