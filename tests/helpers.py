@@ -1,5 +1,6 @@
 """Shared by the tests: engines with a closed-form solution, and one cycle at given settings."""
 
+import dataclasses
 import math
 import re
 from pathlib import Path
@@ -9,6 +10,7 @@ import numpy as np
 from saleg import BounceChamber, Engine, Translator, sweep
 from saleg.engine.start import CompressedCharge
 from saleg.laws import ConstantGamma, LinearLoad, LinearSprings, ViscousFriction
+from saleg.laws.control.base import LoadControl
 from saleg.simulation.course import Course
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.settings import Detail, Settings
@@ -126,3 +128,12 @@ def compiled_method(law, method):
     for name in record.dtype.names:
         record[name] = getattr(law, name, 0.0)
     return lambda *arguments: names[f"one_{method}"](record, *arguments)
+
+
+@dataclasses.dataclass(frozen=True)
+class Asserting(LoadControl):
+    """Fails by an assertion after a while; in a test file pytest would have written it anew."""
+
+    def weight(self, memory, signals):
+        assert signals.t < 0.1
+        return 1.0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import saleg
-from helpers import single_piston
+from helpers import Asserting, single_piston
 from saleg import Controller, Status, control
 from saleg.compiler.controllers import control_of
 from saleg.control import Demand, Plant, Sensors, generator, motor
@@ -310,15 +310,6 @@ def test_a_compiled_part_that_fails_ends_the_run_and_is_named(transient):
 
 
 @dataclasses.dataclass(frozen=True)
-class Asserting(LoadControl):
-    """Fails by an assertion after a while."""
-
-    def weight(self, memory, signals):
-        assert signals.t < 0.1
-        return 1.0
-
-
-@dataclasses.dataclass(frozen=True)
 class Dividing(LoadControl):
     """Fails at once: there is no frequency before the first stroke."""
 
@@ -331,8 +322,6 @@ class Dividing(LoadControl):
     ("part", "error"), [(Asserting(), "AssertionError"), (Dividing(), "ZeroDivisionError")]
 )
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-# pytest writes asserts anew, so their code is not that of this file.
-@pytest.mark.filterwarnings("ignore:the text of Asserting:saleg.SalegWarning")
 def test_a_part_that_raises_ends_the_run_and_is_named(transient, part, error, compiled):
     run = control.simulate(transient, Controller(load_control=part), 0.3, compiled=compiled)
     assert run.status is Status.CONTROLLER_FAULT
