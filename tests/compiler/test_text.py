@@ -10,6 +10,7 @@ import saleg.compiler
 from saleg import LawError
 from saleg.compiler import machine_code, search
 from saleg.compiler.compiled_engine import kernel_for
+from saleg.compiler.module import load
 from saleg.compiler.text import INTEGRATOR, compose, compose_search, own_text
 from saleg.laws.base import CHAMBER_SLOTS
 
@@ -55,9 +56,14 @@ def test_alike_sides_share_their_functions_and_others_do_not(base):
     assert "def both_ignition_rate(" in found
 
 
-def test_what_is_not_kept_asks_for_no_cache(base):
-    assert "cache=True" in compose(classes_of(base), ("plain_rhs",))
-    assert "cache=True" not in compose(classes_of(base), ("plain_rhs",), kept=False)
+@pytest.mark.parametrize("keeps", [True, False])
+def test_what_is_not_kept_asks_for_no_cache(base, keeps, tmp_path, monkeypatch):
+    monkeypatch.setenv("SALEG_CACHE_DIR", str(tmp_path))
+    text = compose(classes_of(base), ("plain_rhs",))
+    loaded = load(text, "kernel", keeps=keeps)
+    place = loaded.module.rates_of_records.stats.cache_path
+    assert place == (str(loaded.kept.code) if keeps else None)
+    assert bool(list(tmp_path.iterdir())) == keeps
 
 
 def test_a_name_that_stands_for_two_things_is_refused(base):

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import multiprocessing.process
 import os
 import pickle
+import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
@@ -16,6 +19,7 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import nullcontext
+from functools import lru_cache, partial
 from typing import TypeVar
 
 from saleg.quantities import is_whole
@@ -112,13 +116,14 @@ def _sent_out(
 ) -> Iterator[tuple[int, Result]]:
     """Send pieces out, no more than `most` at a time; what gets lost is put into `lost`."""
     waiting: dict[Future[Result], tuple[int, Piece]] = {}
+    done_there = partial(_at_work, work)
     try:
         for piece in pieces:
             if lost:
                 lost.append(piece)
                 continue
             try:
-                waiting[pool.submit(work, piece[1])] = piece
+                waiting[pool.submit(done_there, piece[1])] = piece
             except LOST:
                 lost.append(piece)
             if len(waiting) >= most:
@@ -165,3 +170,30 @@ def _check_travels(parcel: object) -> None:
             f"the work cannot be sent to another process: {error}; define its classes and "
             "functions at the top of a module, or let threads do it (executor=None)"
         ) from error
+
+
+def _at_work(work: Callable[[Piece], Result], piece: Piece) -> Result:
+    """Do a piece, in whatever process."""
+    end_with_parent()
+    return work(piece)
+
+
+def end_with_parent() -> None:
+    """From now on end a process of a pool when the one that made it is gone.
+
+    One that was killed cannot say so, and a worker would wait for work without end.
+    """
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        _watch(parent)
+
+
+@lru_cache
+def _watch(parent: multiprocessing.process.BaseProcess) -> None:
+    """End this process after another, watched by a thread."""
+
+    def end() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=end, name="end with parent", daemon=True).start()

@@ -14,7 +14,7 @@ So a composed module reads, much shortened::
 
     import numba
     inline = numba.njit(
-    cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=True)
+    cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)
     # --- laws/arguments.py
     class Gas(NamedTuple):
     # --- kernel/layout.py

@@ -7,7 +7,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from saleg.compiler import plain, records
-from saleg.compiler.cache import usable_folder
 from saleg.compiler.controllers import control_of, nobody
 from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.kernel import Kernel
@@ -154,13 +153,12 @@ def _composed(
     """Kernel for a choice of law classes in a certain state."""
     kinds = dict.fromkeys(zip(classes, lengths, strict=True))
     own = [kind for kind in kinds if not is_ours(kind[0])]
-    folder = usable_folder()
     injected: dict[str, Any] = {}
     try:
-        text = compose(classes, modules, kept=folder is not None)
-    except NoSource as error:  # what is compiled from bytecode is not kept
+        text = compose(classes, modules)
+    except NoSource as error:
         warn_if_edited(error)
-        folder = None
-        text = compose(classes, modules, kept=False, injected=injected)
+        text = compose(classes, modules, injected=injected)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
-    return Kernel(*load(text, "kernel", folder, injected), own)
+    # What is compiled from bytecode is not kept: the text does not say all of it.
+    return Kernel(*load(text, "kernel", injected, keeps=not injected), own)

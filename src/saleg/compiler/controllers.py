@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.compiler import plain
-from saleg.compiler.cache import usable_folder
 from saleg.compiler.diagnosis import diagnosed
 from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.module import load
@@ -35,7 +34,7 @@ _pointer = numba.types.CPointer(numba.types.float64)
 
 
 @numba.cfunc(
-    numba.types.void(_pointer, _pointer, _pointer, _pointer), error_model="numpy", cache={cache}
+    numba.types.void(_pointer, _pointer, _pointer, _pointer), error_model="numpy", cache=ON_DISK
 )
 def entry(numbers_at, held_at, signals_at, commands_at):
 {body}
@@ -84,16 +83,15 @@ def _load(
     kinds = dict.fromkeys(zip(classes, lengths, strict=True))
     from numba.core.errors import NumbaError
 
-    folder = usable_folder()
     injected: dict[str, Any] = {}
     try:
-        text = _text(classes, lengths, folder is not None)
-    except NoSource as error:  # what is compiled from bytecode is not kept
+        text = _text(classes, lengths)
+    except NoSource as error:
         warn_if_edited(error)
-        folder = None
-        text = _text(classes, lengths, False, injected)
+        text = _text(classes, lengths, injected)
     try:
-        return load(text, "controller", folder, injected).module.entry
+        # What is compiled from bytecode is not kept: the text does not say all of it.
+        return load(text, "controller", injected, keeps=not injected).module.entry
     except NumbaError as error:
         own = [kind for kind in kinds if not is_ours(kind[0])]
         raise LawError(diagnosed(own, error)) from error
@@ -102,10 +100,9 @@ def _load(
 def _text(
     classes: tuple[type[Law], ...],
     lengths: tuple[Lengths, ...],
-    kept: bool,
     injected: dict[str, Any] | None = None,
 ) -> str:
-    """Text of a controller's module, whose machine code is kept on disk or not."""
+    """Text of a controller's module."""
     parts = ["import math", "from collections import namedtuple", "import numba"]
     parts += ["import numpy as np", COMPILED_HEADER, own_text("laws/arguments.py")]
     places, first = [], 0
@@ -123,7 +120,7 @@ def _text(
         places.append(f"{slot}_numbers({', '.join(values)})")
     parts.append(f"all_numbers = namedtuple('all_numbers', {list(CONTROL_SLOTS)})")
     parts.append(own_text("kernel/decide.py"))
-    parts.append(ENTRY.format(cache=kept, body=_body(places, first)))
+    parts.append(ENTRY.format(body=_body(places, first)))
     return "\n".join(parts) + "\n"
 
 

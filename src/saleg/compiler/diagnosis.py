@@ -52,7 +52,7 @@ def _trouble(law: Any, lengths: Lengths, method: str, base: type[Law]) -> str:
     definitions = methods_text(law, method, "one", base, injected)
     parts = ["import math", "import numba", "import numpy as np", COMPILED_HEADER]
     parts += [own_text("laws/arguments.py"), *definitions]
-    module = load("\n".join(parts), "diagnosis", None, injected).module
+    module = load("\n".join(parts), "diagnosis", injected, keeps=False).module
     function = getattr(module, f"one_{method}")
     arguments = [np.zeros(1, record_of_kind(law, lengths))[0], *_shown(getattr(base, method))]
     try:

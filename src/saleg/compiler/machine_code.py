@@ -7,7 +7,9 @@ has changed:
 - an entry point called without finding out the types of its arguments, which spares a twentieth of
   a millisecond; else numba's dispatcher is called;
 - a function's address, so that the search for steady states is compiled once for all laws; else it
-  is compiled into every kernel (:mod:`~saleg.compiler.search`).
+  is compiled into every kernel (:mod:`~saleg.compiler.search`);
+- the folder numba keeps machine code in, to be looked at before anything is loaded; else none is
+  kept.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from __future__ import annotations
 import pkgutil
 from collections.abc import Callable, Sequence
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 #: What a call by address takes: here for the address, in ``run_at.py`` for the call.
@@ -41,6 +44,24 @@ def types_of(arguments: Sequence[Any]) -> Types:
 def is_compiled(function: Any, types: Types) -> bool:
     """Whether a function is known to be compiled for arguments of some types."""
     return _result(function, types) is not None
+
+
+def folder_of(path: Path) -> Path:
+    """Folder where the machine code of a file is kept, made if need be.
+
+    Raises
+    ------
+    PermissionError
+        If there is no place for it.
+    """
+    import numba
+
+    names: dict[str, Any] = {}
+    exec(compile("def probe(): pass", str(path), "exec"), names)
+    try:
+        return Path(str(numba.njit(cache=True)(names["probe"]).stats.cache_path))
+    except (RuntimeError, AttributeError) as error:
+        raise PermissionError(str(error)) from None
 
 
 def compile_for(function: Any, types: Types) -> None:

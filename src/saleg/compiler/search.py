@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from saleg.compiler import machine_code, plain
-from saleg.compiler.cache import usable_folder
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
 from saleg.compiler.text import INTEGRATOR, INTEGRATOR_WITH_SEARCH, compose_search
@@ -69,5 +68,4 @@ def _stands_alone() -> bool:
 @lru_cache(maxsize=1)
 def _search() -> Kernel:
     """Kernel of the search."""
-    folder = usable_folder()
-    return Kernel(*load(compose_search(kept=folder is not None), "search", folder))
+    return Kernel(*load(compose_search(), "search"))

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import ast
 import inspect
+import pkgutil
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from saleg.compiler.imported_text import NoSource
@@ -22,7 +22,6 @@ from saleg.laws import Law
 from saleg.laws.base import CHAMBER_SLOTS
 from saleg.laws.contract import plain_function
 
-PACKAGE = Path(__file__).resolve().parent.parent
 #: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
 BEFORE_SLOTS = (
     "laws/arguments.py",
@@ -71,15 +70,14 @@ compiled = numba.njit(
     error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
 )
 """
-CACHED_ON_DISK = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=True)\n'
-CACHED_IN_MEMORY = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True)\n'
+#: What a module is loaded with says whether it is kept.
+CACHED = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)\n'
 
 
 def compose(
     classes: Sequence[type[Law]],
     modules: Sequence[str] = INTEGRATOR,
     *,
-    kept: bool = True,
     injected: dict[str, Any] | None = None,
 ) -> str:
     """Text of a composed module.
@@ -90,8 +88,6 @@ def compose(
         Classes of the laws, in the order of the record: left, right, engine, actuators.
     modules : sequence of str
         Modules of the kernel.
-    kept : bool
-        Whether machine code of entry points is kept on disk.
     injected : dict, optional
         Takes the methods whose source cannot be had, by the names the text calls them.
 
@@ -104,7 +100,7 @@ def compose(
     """
     n = len(CHAMBER_SLOTS)
     left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
-    parts = [*_header(kept), *map(own_text, BEFORE_SLOTS)]
+    parts = [*_header(), *map(own_text, BEFORE_SLOTS)]
     eases = "rhs" in modules
     for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
         parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
@@ -114,16 +110,16 @@ def compose(
     return _joined(parts)
 
 
-def compose_search(*, kept: bool = True) -> str:
+def compose_search() -> str:
     """Text of the return map and the search for its fixed points, which use no law."""
-    return _joined([*_header(kept), *map(own_text, SEARCH)])
+    return _joined([*_header(), *map(own_text, SEARCH)])
 
 
-def _header(kept: bool) -> list[str]:
+def _header() -> list[str]:
     """What every composed module begins with."""
     parts = ["import math", "import numba", "import numpy as np", ""]
     parts += [f"from math import exp as {EXPONENTIAL}"]
-    return [*parts, COMPILED_HEADER + (CACHED_ON_DISK if kept else CACHED_IN_MEMORY)]
+    return [*parts, COMPILED_HEADER + CACHED]
 
 
 def _joined(parts: Sequence[str]) -> str:
@@ -228,7 +224,7 @@ def _arguments(base: type[Law], method: str) -> list[str]:
 
 def own_text(name: str) -> str:
     """Text of one of our modules without its docstring and its imports from this package."""
-    text = (PACKAGE / name).read_text(encoding="utf-8")
+    text = (pkgutil.get_data("saleg", name) or b"").decode("utf-8").replace("\r\n", "\n")
     lines = text.splitlines()
     drop: set[int] = set()
     for index, node in enumerate(ast.parse(text).body):

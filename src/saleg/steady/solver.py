@@ -142,7 +142,7 @@ class SteadyState:
     @property
     def remarks(self) -> list[str]:
         """Figures of the cycle that no engine built comes near, as text; often none."""
-        return remarks_on(self.quick_performance)
+        return remarks_on(self.engine, self.quick_performance, self.strokes)
 
     @property
     def moving_mass(self) -> float:
