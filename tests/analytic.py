@@ -11,6 +11,7 @@ UNITS = {
     "efficiency": "-",
     "power": "W",
     "weight": "kg",
+    "stability": "-",
     "stable": "-",
     "kind": "-",
     "largest_multiplier": "-",
@@ -62,6 +63,7 @@ class Hill:
                 "efficiency": 0.5 * math.exp(-values.get("slope", self.slope) * off),
                 "power": 8e3 * sum(at) / 4.0,
                 "weight": 1.0 + at[0] + at[1],
+                "stability": 0.0,
             }
             if multipliers:
                 largest = 1.5 if at[0] > self.unstable_from else 0.5

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from saleg.cli.workers import add_workers, executor_of
 from saleg.files.atomic import write_text
+from saleg.files.reading import expanded
 
 if TYPE_CHECKING:
     from saleg.optimize import Found, Progress
@@ -22,8 +23,8 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser's sub-commands."""
     parser = commands.add_parser("optimize", help="look for the best design of a file")
     add = parser.add_argument
-    add("file", type=Path, metavar="FILE.toml", help="what to optimise; see docs/optimisation.md")
-    add("--out", type=Path, metavar="DIR", help="folder of the results (FILE without .toml)")
+    add("file", type=expanded, metavar="FILE.toml", help="what to optimise; see docs/optimisation.md")
+    add("--out", type=expanded, metavar="DIR", help="folder of the results (FILE without .toml)")
     add_workers(parser)
     parser.set_defaults(command=optimize)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from saleg.cli.workers import add_workers, executor_of
+from saleg.files.reading import expanded
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -16,8 +17,8 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser's sub-commands."""
     parser = commands.add_parser("sweep", help="evaluate every point of a sweep file")
     add = parser.add_argument
-    add("file", type=Path, metavar="FILE.toml", help="what to sweep; see docs/sweeps.md")
-    add("--out", type=Path, metavar="DIR", help="folder of the results (FILE without .toml)")
+    add("file", type=expanded, metavar="FILE.toml", help="what to sweep; see docs/sweeps.md")
+    add("--out", type=expanded, metavar="DIR", help="folder of the results (FILE without .toml)")
     add_workers(parser)
     parser.set_defaults(command=sweep)
 

@@ -6,7 +6,7 @@ import argparse
 from contextlib import nullcontext
 from typing import Any
 
-from saleg.batch.workers import WorkersError
+from saleg.batch.workers import WorkersError, end_with_parent
 
 
 def add_workers(parser: argparse.ArgumentParser) -> None:
@@ -31,4 +31,4 @@ def executor_of(options: argparse.Namespace) -> Any:
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
-    return ProcessPoolExecutor(options.workers, mp_context=get_context("spawn"))
+    return ProcessPoolExecutor(options.workers, get_context("spawn"), end_with_parent)

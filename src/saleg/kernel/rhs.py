@@ -48,13 +48,8 @@ from saleg.kernel.slots import (
     ignition_rate_constants,
     springs_force,
 )
+from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Charge, Gas, Motion
-
-
-@inline
-def clearance_of(C, side, x):
-    """Clearance between crown and head [m]."""
-    return C[side].half_stroke + C[side].sign * x
 
 
 @inline

@@ -14,6 +14,7 @@ import numpy as np
 
 from saleg.batch.identity import described
 from saleg.batch.workers import WorkersError, check_workers
+from saleg.design.terms import is_known
 from saleg.errors import Problem as Wrong
 from saleg.errors import nearest
 from saleg.optimize.log import Log, OptimisationError
@@ -183,6 +184,8 @@ class _Course:
         self._given = np.clip(given, 0.0, 1.0)
         figures = [name for name in self._problem.units if name != "score"]
         whole = set(figures) <= set(start)
+        start = start.copy()
+        start.attrs.clear()  # copied with every step otherwise
         held = start[figures if whole else list(self._problem.bounds)]
         self._start = hashlib.sha256(held.to_csv().encode()).hexdigest()
         if whole:
@@ -270,7 +273,7 @@ class _Course:
             if key not in self._known:
                 new.setdefault(key, number)
         values = self._values(designs[list(new.values())])
-        rows = self._problem.evaluate(values, **self._workers).assign(verified=False)
+        rows = self._problem.rows(values, **self._workers).assign(verified=False)
         place = dict(zip(new, range(len(new)), strict=True))
         pieces = [rows]
         for key in keys:
@@ -296,8 +299,8 @@ class _Course:
             table = joined([*self._leaders, rows])
             first = len(table) - len(rows)
             leaders = self._method.leaders(self._problem, self._problem.told(table))
-            verified = table["verified"].to_numpy()
-            waiting = [row - first for row in leaders if row >= first + known and not verified[row]]
+            wanted = is_known(table) & ~table["verified"].to_numpy()
+            waiting = [row - first for row in leaders if row >= first + known and wanted[row]]
             if not waiting or not self._problem.has_multipliers:
                 self._leaders = [table.iloc[leaders]]
                 return rows
@@ -306,7 +309,7 @@ class _Course:
     def _with_multipliers(self, rows: pd.DataFrame, numbers: list[int]) -> pd.DataFrame:
         """Rows, of which some are evaluated again with their multipliers."""
         designs = rows[list(self._problem.bounds)].to_numpy(dtype=float)[numbers]
-        found = self._problem.evaluate(designs, multipliers=True, **self._workers)
+        found = self._problem.rows(designs, multipliers=True, **self._workers)
         columns = {str(name): rows[name].to_numpy().copy() for name in rows}
         for name in (*STABILITY, "score"):
             columns[name][numbers] = found[name].to_numpy()
@@ -328,7 +331,5 @@ def joined(tables: list[pd.DataFrame]) -> pd.DataFrame:
 
     filled = [table for table in tables if len(table)] or tables[-1:]
     names = [name for name in filled[-1] if all(name in table for table in filled)]
-    columns = {
-        str(name): np.concatenate([table[name].to_numpy() for table in filled]) for name in names
-    }
-    return pd.DataFrame(columns)
+    given = [table if len(table.columns) == len(names) else table[names] for table in filled]
+    return pd.concat(given, ignore_index=True) if len(given) > 1 else given[0]

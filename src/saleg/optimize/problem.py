@@ -204,12 +204,19 @@ class Problem:
         DataFrame
             One row per design, in order: parameters, status, message, figures, score.
         """
-        return scored(self.figures(X, multipliers, executor, workers), self)
+        table = self.rows(X, multipliers, executor, workers)
+        table.attrs["units"] = {name: self.units[name] for name in map(str, table)}
+        table.attrs["inputs"] = list(self.bounds)
+        return table
 
-    def figures(
-        self, X: Any, multipliers: bool, executor: Executor | None, workers: int | None
+    def rows(
+        self,
+        X: Any,
+        multipliers: bool = False,
+        executor: Executor | None = None,
+        workers: int | None = None,
     ) -> pd.DataFrame:
-        """Rows of designs without their score."""
+        """Rows of designs, as :meth:`evaluate` gives them, without units."""
         import pandas as pd
 
         held = X[list(self.bounds)] if isinstance(X, pd.DataFrame) else np.asarray(X, dtype=float)
@@ -219,7 +226,7 @@ class Problem:
             again = partial(evaluated, self, executor=executor, workers=workers)
             nominal = self.swept.get  # type: ignore[union-attr]
             table = self.scatter.added(table, points, again, self.score, nominal)
-        return table
+        return scored(table, self)
 
     def told(self, table: pd.DataFrame) -> Told:
         """What a method is told of the rows of a table."""
@@ -307,10 +314,7 @@ def evaluated(
 def scored(table: pd.DataFrame, problem: Problem) -> pd.DataFrame:
     """A table with the score of a problem as its last column."""
     rest = table.drop(columns="score", errors="ignore")
-    given = rest.assign(score=score_of(rest, problem.score))
-    given.attrs["units"] = {name: problem.units.get(name, "-") for name in map(str, given)}
-    given.attrs["inputs"] = list(problem.bounds)
-    return given
+    return rest.assign(score=score_of(rest, problem.score))
 
 
 def score_of(table: pd.DataFrame, score: Callable[[Any], Any]) -> np.ndarray:

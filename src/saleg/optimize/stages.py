@@ -14,8 +14,9 @@ from saleg.optimize.result import Found
 
 #: Designs a second stage begins with.
 WINNERS = 8
-#: First step of CMA-ES around the winners, over the range of each parameter.
-STEP = 0.1
+#: CMA-ES around the winners. Measured on 4 kW: with wider steps (0.1, 0.2) it first falls off the
+#: ridge the winners are on, and seldom comes back in a thousand designs.
+NEAR = CMAES(step=0.05, size=16)
 
 
 def improve(
@@ -61,7 +62,7 @@ def improve(
     goal = problem.replace(objectives=(wanted,), constraints=tuple(dict.fromkeys(limits)))
     if method is None:
         method = default_method(1)
-        method = CMAES(step=STEP) if isinstance(method, CMAES) else method
+        method = NEAR if isinstance(method, CMAES) else method
     return optimize(goal, method, evaluations, seed, start=winners(found, goal), **further)
 
 

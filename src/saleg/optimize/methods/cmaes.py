@@ -38,9 +38,9 @@ class CMAES(Method):
     """
 
     package = "cma"
-    size: int = quantity("-", default=24, low=4, whole=True)
+    size: int = quantity("-", default=20, low=4, whole=True)
     step: float = quantity("-", default=0.25, low=0, high=1, open_low=True)
-    sample: int = quantity("-", default=200, low=1, whole=True)
+    sample: int = quantity("-", default=100, low=1, whole=True)
 
     def begin(self, start: Start) -> Search:
         """Begin with a sample."""
