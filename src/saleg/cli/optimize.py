@@ -23,7 +23,12 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser's sub-commands."""
     parser = commands.add_parser("optimize", help="look for the best design of a file")
     add = parser.add_argument
-    add("file", type=expanded, metavar="FILE.toml", help="what to optimise; see docs/optimisation.md")
+    add(
+        "file",
+        type=expanded,
+        metavar="FILE.toml",
+        help="what to optimise: docs/optimisation.md",
+    )
     add("--out", type=expanded, metavar="DIR", help="folder of the results (FILE without .toml)")
     add_workers(parser)
     parser.set_defaults(command=optimize)
