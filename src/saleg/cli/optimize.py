@@ -35,7 +35,7 @@ def add_to(commands: Any) -> None:
 
 
 def optimize(options: argparse.Namespace) -> bool:
-    """Run or go on with an optimisation; returns whether the best design is in a steady state."""
+    """Run or go on with an optimisation; returns whether a design within the limits was found."""
     from saleg.optimize import files, improve
     from saleg.optimize import optimize as run
 
@@ -55,7 +55,7 @@ def optimize(options: argparse.Namespace) -> bool:
         names = _written(found, folder)
         print(found)
         if asked.improve is not None:
-            found = improve(
+            better = improve(
                 found,
                 asked.improve.figure,
                 evaluations=asked.improve.evaluations,
@@ -64,11 +64,12 @@ def optimize(options: argparse.Namespace) -> bool:
                 report=_reporter(asked.improve.figure),
                 **more,
             )
-            print(found)
-            names += [f"improved/{name}" for name in _written(found, folder / "improved")]
+            print(better)
+            names += [f"improved/{name}" for name in _written(better, folder / "improved")]
+            found = better if better.succeeded else found
     _print_best(found)
     print(f"wrote {folder}: {', '.join(names)}")
-    return str(found.best["status"]) == "steady"
+    return found.succeeded
 
 
 def _reporter(figure: str) -> Callable[[Progress], None]:
@@ -89,7 +90,7 @@ def _reporter(figure: str) -> Callable[[Progress], None]:
 
 def _written(found: Found, folder: Path) -> list[str]:
     """Names of what is written beside the log: the best engine, and pictures."""
-    if str(found.best["status"]) != "steady":
+    if not found.succeeded:
         return ["designs.csv"]
     write_text(folder / "best.toml", found.engine().to_toml())
     drawn = ["convergence", "parallel", *(["front"] if len(found.problem.objectives) > 1 else [])]
@@ -102,6 +103,8 @@ def _print_best(found: Found) -> None:
     """Parameters and figures of the best design, in the units people read."""
     from saleg.simulation.readable import readable
 
+    if not found.succeeded:
+        return
     best, units = found.best, found.table.attrs["units"]
     print(f"best design ({best['status']}, {'' if best['stable'] else 'not known to be '}stable):")
     for name in dict.fromkeys([*found.problem.bounds, *PRINTED]):

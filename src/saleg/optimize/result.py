@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.design.loop import solve
+from saleg.design.terms import is_known
 from saleg.engine import Engine
 from saleg.optimize.fronts import first_front
 from saleg.optimize.methods.archive import Axis, cells_of, elites
 from saleg.optimize.methods.base import Method
-from saleg.optimize.problem import Problem
+from saleg.optimize.problem import MISSES, Problem
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -100,7 +101,17 @@ class Found:
 
         return plots(self)
 
+    @property
+    def succeeded(self) -> bool:
+        """Whether the best design has a steady state within all limits."""
+        told = self.problem.told(self.table)
+        row = int(np.argmax(told.fitness))
+        return bool(is_known(self.table.iloc[[row]])[0] and told.fitness[row] > MISSES)
+
     def __str__(self) -> str:
+        if not self.succeeded:
+            count = f"{len(self.table)} designs of {type(self.method).__name__}"
+            return f"no steady state within the limits in {count} ({self.message})"
         best = self.best
         name, method = self.problem.objectives[0].figure, type(self.method).__name__
         designs = f"{len(self.table)} designs of {method}"
