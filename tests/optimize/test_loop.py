@@ -313,7 +313,84 @@ def test_an_optimisation_names_all_that_is_wrong(monkeypatch):
     assert type(found.method) is o.DifferentialEvolution
 
 
-def test_a_score_of_nan_is_refused():
-    problem = o.Problem(BOX, lambda row: row["weight"] * np.nan, swept=Hill())
-    with pytest.raises(SalegError, match="score = nan: must be a number for every row"):
+@pytest.mark.parametrize(
+    ("score", "shown"),
+    [
+        (lambda row: row["weight"] * np.nan, "nan"),
+        (lambda row: np.where(row["weight"] > 1.5, np.inf, 0.5), "inf"),
+        (lambda row: -row["weight"], "-[12]"),
+        (lambda row: "good", "'good'"),
+        (lambda row: np.ones(3), "array"),
+        (lambda row: None, "nan"),
+    ],
+)
+def test_a_score_that_is_none_is_refused(score, shown):
+    """A failed design scores 0, so what is below would come behind it, and NaN nowhere."""
+    problem = o.Problem(BOX, score, swept=Hill())
+    with pytest.raises(SalegError, match=f"score = {shown}.*: must be a number for every row"):
         o.optimize(problem, "ga", 20, workers=1)
+
+
+@pytest.mark.parametrize(
+    ("fields", "says"),
+    [
+        ({"objectives": o.Objective("power")}, "objectives = .*must be a tuple, of Objective"),
+        ({"objectives": None}, "objectives = None: must be a tuple, of Objective"),
+        ({"objectives": (o.Objective(["power"]),)}, "no row has it"),
+        ({"objectives": (o.Objective("status"),)}, "'status': is text"),
+        ({"constraints": o.Limit("power", 1.0)}, "constraints = .*must be a tuple, of Limit"),
+        ({"constraints": None}, "constraints = None: must be a tuple, of Limit"),
+        ({"constraints": (o.Limit("power", "a"),)}, "must have low <= high, both numbers"),
+        ({"constraints": (o.Limit("message", 1.0),)}, "'message': is text"),
+        ({"scatter": 0.1}, "scatter = 0.1: must be a Scatter"),
+    ],
+)
+def test_objectives_and_limits_of_no_number_are_refused(fields, says):
+    with pytest.raises(o.InvalidProblem, match=says):
+        hill(**fields)
+
+
+@pytest.mark.parametrize(
+    ("method", "says"),
+    [
+        (o.DifferentialEvolution(strategy="best1bim"), "did you mean 'best1bin'"),
+        (o.DifferentialEvolution(mutation=(1.0, 0.5)), "mutation.*must be two rising numbers"),
+        (o.DifferentialEvolution(mutation="a"), "mutation.*must be two rising numbers"),
+        (o.GeneticAlgorithm(stop=np.nan), "stop = nan: must be a number"),
+        (o.Archive(axes=()), "axes = .*must be a tuple with at least one Axis"),
+        (o.Archive(axes=(3,)), r"axes\[0\] = 3: must be an Axis"),
+        (o.Archive(axes=(o.Axis("wieght", 1.0, 2.0),)), "did you mean 'weight'"),
+        (o.Archive(axes=(o.Axis("status", 1.0, 2.0),)), "is text"),
+        (o.Archive(axes=(o.Axis("weight", 2.0, 1.0, 0.5),)), "(?s)low < high.*whole number"),
+    ],
+)
+def test_settings_of_methods_are_checked(method, says):
+    with pytest.raises(o.InvalidProblem, match=says):
+        o.optimize(hill(), method, 20, workers=1)
+
+
+@pytest.mark.parametrize(
+    "designs",
+    [[[0.1, 0.2]], [0.1, 0.2, 0.3, 0.4], [["x"] * 4], [[0.1, 0.2, 0.3, np.nan]], {"a": [0.1]}],
+)
+def test_designs_that_are_none_are_refused(designs):
+    given = pd.DataFrame(designs) if isinstance(designs, dict) else designs
+    with pytest.raises(o.InvalidProblem, match="X = "):
+        hill().evaluate(given)
+
+
+def test_what_is_no_result_has_no_second_stage():
+    for stage in (o.improve, o.polish, o.winners):
+        with pytest.raises(o.InvalidProblem, match=r"must be what optimize\(...\) returns"):
+            stage(hill())
+    with pytest.raises(o.InvalidProblem, match="no row has it"):
+        o.optimize(hill(), "ga", 20, workers=1).archive(o.Axis("colour", 0.0, 1.0))
+    with pytest.raises(SalegError, match="compression_ratio = 3: must be its lowest and highest"):
+        o.thesis_problem(4e3, 3)
+
+
+def test_fronts_without_their_package_say_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pymoo", None)
+    two = (o.Objective("efficiency"), o.Objective("power"))
+    with pytest.raises(o.InvalidProblem, match=r'needs pymoo: pip install "saleg\[optimize\]"'):
+        o.optimize(hill(objectives=two), evaluations=20)

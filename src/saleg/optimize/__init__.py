@@ -42,6 +42,7 @@ from saleg.optimize.methods import (
     GeneticAlgorithm,
     Method,
 )
+from saleg.optimize.objectives import Objective
 from saleg.optimize.presets import (
     BOX,
     SCRIPT_BOX,
@@ -51,7 +52,7 @@ from saleg.optimize.presets import (
     thesis_script,
     thesis_text,
 )
-from saleg.optimize.problem import InvalidProblem, Objective, Problem, Told, score_of
+from saleg.optimize.problem import InvalidProblem, Problem, Told, score_of
 from saleg.optimize.result import Found
 from saleg.optimize.scatter import Scatter
 from saleg.optimize.stages import improve, polish, winners

@@ -51,8 +51,9 @@ from saleg.engine.toml import parsed
 from saleg.errors import nearest
 from saleg.optimize.log import OptimisationError
 from saleg.optimize.methods import METHODS, Method
+from saleg.optimize.objectives import Objective
 from saleg.optimize.presets import Preset, thesis_script, thesis_text
-from saleg.optimize.problem import Objective, Problem
+from saleg.optimize.problem import Problem
 from saleg.quantities import is_number, is_whole
 
 #: Presets by name.

@@ -17,6 +17,7 @@ from saleg.batch.workers import WorkersError, check_workers
 from saleg.design.terms import is_known
 from saleg.errors import Problem as Wrong
 from saleg.errors import nearest
+from saleg.optimize.checks import wrong_designs
 from saleg.optimize.log import Log, OptimisationError
 from saleg.optimize.methods import METHODS, Method, Start, default_method
 from saleg.optimize.problem import STABILITY, InvalidProblem, Problem, scored
@@ -104,7 +105,9 @@ def optimize(
     if not isinstance(problem, Problem):
         raise InvalidProblem([Wrong("problem", problem, "-", "must be a saleg.optimize.Problem")])
     chosen = _method(method, len(problem.objectives))
-    found = list(_wrong(problem, chosen, evaluations, seed, executor, workers, start, stop_at))
+    found = list(
+        _wrong(problem, chosen, evaluations, seed, executor, workers, start, stop_at, report)
+    )
     if found or not isinstance(chosen, Method):
         raise InvalidProblem(found)
     run = _Course(problem, chosen, int(seed), start, executor, workers)
@@ -128,6 +131,7 @@ def _wrong(
     workers: Any,
     start: Any,
     stop_at: Any,
+    report: Any,
 ) -> Iterator[Wrong]:
     """All that keeps an optimisation from beginning."""
     if isinstance(method, Method):
@@ -145,12 +149,12 @@ def _wrong(
         check_workers(executor, workers)
     except WorkersError as error:
         yield Wrong("workers", workers, "-", str(error))
+    if report is not None and not callable(report):
+        yield Wrong("report", report, "-", "must be a function")
     if start is not None:
-        lacking = [name for name in problem.bounds if name not in getattr(start, "columns", ())]
-        if lacking:
-            yield Wrong("start", lacking, "-", "must be a DataFrame with these columns")
-        elif not len(start) or not np.isfinite(start[list(problem.bounds)].to_numpy(float)).all():
-            yield Wrong("start", len(start), "-", "must have at least one row, of finite numbers")
+        yield from wrong_designs("start", start, problem.bounds)
+        if hasattr(start, "columns") and not len(start):
+            yield Wrong("start", 0, "-", "must have at least one row")
 
 
 class _Course:

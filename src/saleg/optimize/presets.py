@@ -6,9 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from saleg.design.designs import Design
 from saleg.design.score import Score
-from saleg.design.terms import Bell, Below, Reached, Weighted, WeightedScore, Within
+from saleg.design.terms import Bell, Below, InvalidScore, Reached, Weighted, WeightedScore, Within
+from saleg.errors import Problem as Wrong
 from saleg.optimize.methods import GeneticAlgorithm
 from saleg.optimize.problem import Problem
 
@@ -74,6 +77,9 @@ class Preset:
         """Score of rows; that of the script has no term for the compression ratio."""
         if self.as_scripted:
             return script_score(target_power)
+        if not np.iterable(compression_ratio) or len(compression_ratio) != 2:
+            need = "must be its lowest and highest value"
+            raise InvalidScore([Wrong("compression_ratio", compression_ratio, "-", need)])
         low, high = compression_ratio
         return Score(
             target_power=target_power,

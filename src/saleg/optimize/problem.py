@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -19,14 +19,15 @@ from saleg.batch.table import CHUNK, MISSING, kind_of
 from saleg.design.designs import Design
 from saleg.design.score import Score
 from saleg.design.subjects import Subject, subject_of
-from saleg.design.terms import InvalidScore, Limit, Own, is_known
+from saleg.design.terms import InvalidScore, Limit, is_known
 from saleg.engine import Engine
 from saleg.errors import Problem as Wrong
-from saleg.errors import SalegError, WrongFields, nearest
+from saleg.errors import WrongFields
+from saleg.optimize.checks import wrong_designs, wrong_fields
+from saleg.optimize.objectives import Objective
 from saleg.optimize.scatter import FIGURES as SCATTER_FIGURES
 from saleg.optimize.scatter import Scatter
-from saleg.quantities import as_float
-from saleg.steady.solver import DEFAULT_TOLERANCE, Effort, check_effort, check_tolerance
+from saleg.steady.solver import DEFAULT_TOLERANCE, Effort
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -41,25 +42,6 @@ class InvalidProblem(WrongFields):
     """An optimisation that makes no sense; `problems` lists all that is wrong."""
 
     whole = "optimisation"
-
-
-class Objective(NamedTuple):
-    """A figure that should be as great, or as small, as possible.
-
-    Parameters
-    ----------
-    figure : str
-        Column of the table; ``"score"`` is the score of the problem.
-    maximise : bool
-    """
-
-    figure: str
-    maximise: bool = True
-
-    def values(self, table: pd.DataFrame) -> np.ndarray:
-        """Figures of all rows, the greater the better."""
-        values = table[self.figure].to_numpy(dtype=float)
-        return values if self.maximise else -values
 
 
 class Told(NamedTuple):
@@ -138,7 +120,7 @@ class Problem:
 
     def __post_init__(self) -> None:
         """Refuse what makes no sense."""
-        found = list(_wrong(self))
+        found = list(wrong_fields(self))
         if found:
             raise InvalidProblem(found)
         plain = {str(name): (float(a), float(b)) for name, (a, b) in self.bounds.items()}
@@ -203,6 +185,11 @@ class Problem:
         -------
         DataFrame
             One row per design, in order: parameters, status, message, figures, score.
+
+        Raises
+        ------
+        InvalidProblem
+            If these are no rows of finite numbers.
         """
         table = self.rows(X, multipliers, executor, workers)
         table.attrs["units"] = {name: self.units[name] for name in map(str, table)}
@@ -219,8 +206,13 @@ class Problem:
         """Rows of designs, as :meth:`evaluate` gives them, without units."""
         import pandas as pd
 
-        held = X[list(self.bounds)] if isinstance(X, pd.DataFrame) else np.asarray(X, dtype=float)
-        points = pd.DataFrame(held, columns=list(self.bounds))
+        held = X if isinstance(X, pd.DataFrame) else pd.DataFrame(np.asarray(X))
+        if not isinstance(X, pd.DataFrame) and len(held.columns) == len(self.bounds):
+            held.columns = list(self.bounds)
+        found = list(wrong_designs("X", held, self.bounds))
+        if found:
+            raise InvalidProblem(found)
+        points = held[list(self.bounds)].astype(float)
         table = evaluated(self, points, multipliers, executor, workers)
         if self.scatter is not None:
             again = partial(evaluated, self, executor=executor, workers=workers)
@@ -323,93 +315,16 @@ def score_of(table: pd.DataFrame, score: Callable[[Any], Any]) -> np.ndarray:
     Raises
     ------
     InvalidScore
-        If a row with a steady state has no score.
+        If a row with a steady state has no score from 0 to 1.
     """
-    values = np.broadcast_to(np.asarray(score(table), dtype=float), len(table))
+    given = score(table)
     known = np.broadcast_to(is_known(table), len(table))
-    if np.isnan(values[known]).any():
-        need = "must be a number for every row with a steady state"
-        raise InvalidScore([Wrong("score", math.nan, "-", need)])
+    try:
+        values = np.broadcast_to(np.asarray(given, dtype=float), len(table))
+        wrong = values[known & ~((values >= 0.0) & (values <= 1.0))].tolist()
+    except (TypeError, ValueError):
+        wrong = [given]
+    if wrong:
+        need = "must be a number for every row with a steady state, from 0 to 1"
+        raise InvalidScore([Wrong("score", wrong[0], "-", need)])
     return np.where(known, values, 0.0)
-
-
-def _wrong(problem: Problem) -> Iterator[Wrong]:
-    """All that is wrong with a problem."""
-    try:
-        subject = subject_of(problem.swept)
-    except SalegError as error:
-        yield Wrong("swept", problem.swept, "-", str(error))
-        return
-    yield from _wrong_bounds(problem, subject)
-    figures = {*map(str, problem.bounds or ()), *map(str, subject.units), "score"}
-    if problem.scatter is not None:
-        yield from problem.scatter.wrong(subject)
-        figures |= set(SCATTER_FIGURES)
-    if not callable(problem.score) or isinstance(problem.score, type):
-        yield Wrong("score", problem.score, "-", "must be a score: an object (not a class) to call")
-    for weight, term in getattr(problem.score, "terms", ()):
-        if weight and not isinstance(term, Own) and term.figure not in figures:
-            yield _unknown("score", term.figure, figures)
-    if not problem.objectives:
-        yield Wrong("objectives", problem.objectives, "-", "must be at least one Objective")
-    for number, objective in enumerate(problem.objectives):
-        if not isinstance(objective, Objective):
-            yield Wrong(f"objectives[{number}]", objective, "-", "must be an Objective")
-        elif objective.figure not in figures:
-            yield _unknown(f"objectives[{number}]", objective.figure, figures)
-    for number, limit in enumerate(problem.constraints):
-        if not isinstance(limit, Limit):
-            yield Wrong(f"constraints[{number}]", limit, "-", "must be a Limit")
-        elif limit.figure not in figures:
-            yield _unknown(f"constraints[{number}]", limit.figure, figures)
-        elif not limit.low <= limit.high:
-            yield Wrong(f"constraints[{number}]", limit, "-", "must have low <= high")
-    for name, check in (("effort", check_effort), ("rtol", check_tolerance)):
-        try:
-            check(getattr(problem, name))
-        except SalegError as error:
-            yield Wrong(name, getattr(problem, name), "-", str(error))
-
-
-def _unknown(where: str, figure: Any, figures: set[str]) -> Wrong:
-    return Wrong(where, figure, "-", f"no row has it{nearest(figure, sorted(figures))}")
-
-
-def _wrong_bounds(problem: Problem, subject: Subject) -> Iterator[Wrong]:
-    if not isinstance(problem.bounds, Mapping) or not problem.bounds:
-        need = "must be ranges by name, as {'bore': (0.05, 0.07)}"
-        yield Wrong("bounds", problem.bounds, "-", need)
-        return
-    known = []
-    for name, ends in problem.bounds.items():
-        try:
-            unit = subject.unit(str(name))
-            known.append(str(name))
-        except SalegError as error:
-            yield Wrong(f"bounds[{name!r}]", ends, "-", str(error))
-            continue
-        numbers = [as_float(end) for end in ends] if np.iterable(ends) else []
-        if len(numbers) != 2 or any(end is None or not math.isfinite(end) for end in numbers):
-            yield Wrong(
-                f"bounds[{name!r}]", ends, unit, "must be a lower and a higher finite value"
-            )
-        elif not numbers[0] < numbers[1]:  # type: ignore[operator]
-            yield Wrong(f"bounds[{name!r}]", ends, unit, "the lower bound must be below the higher")
-        else:
-            yield from _beyond(problem.swept, str(name), numbers)
-    try:
-        subject.refuse_clash(known)
-    except SalegError as error:
-        yield Wrong("bounds", known, "-", str(error))
-
-
-def _beyond(swept: Any, name: str, ends: list[Any]) -> Iterator[Wrong]:
-    """Bounds no design or engine can have."""
-    if not isinstance(swept, (Design, Engine)):
-        return
-    for end in ends:
-        try:
-            swept.replace(**{name: end}).validate()
-        except WrongFields as error:
-            fields = [item for item in error.problems if item.value == end]
-            yield from (item._replace(path=f"bounds[{name!r}]") for item in fields[:1])

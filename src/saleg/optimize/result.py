@@ -11,9 +11,9 @@ from saleg.design.loop import solve
 from saleg.design.terms import is_known
 from saleg.engine import Engine
 from saleg.optimize.fronts import first_front
-from saleg.optimize.methods.archive import Axis, cells_of, elites
+from saleg.optimize.methods.archive import Axis, cells_of, elites, wrong_axes
 from saleg.optimize.methods.base import Method
-from saleg.optimize.problem import MISSES, Problem
+from saleg.optimize.problem import MISSES, InvalidProblem, Problem
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -75,7 +75,15 @@ class Found:
         -------
         DataFrame
             Rows of the table, with the number of the ``cell``, counted through all axes.
+
+        Raises
+        ------
+        InvalidProblem
+            Naming all that is wrong with the axes.
         """
+        found = list(wrong_axes("axes", axes, self.problem))
+        if found:
+            raise InvalidProblem(found)
         told = self.problem.told(self.table)
         kept = elites(axes, told)
         return self.table.iloc[kept].assign(cell=cells_of(axes, self.table)[kept])

@@ -9,7 +9,8 @@ import numpy as np
 from saleg.errors import Problem as Wrong
 from saleg.optimize.loop import optimize
 from saleg.optimize.methods import CMAES, CompassSearch, Method, default_method
-from saleg.optimize.problem import InvalidProblem, Objective
+from saleg.optimize.objectives import Objective
+from saleg.optimize.problem import InvalidProblem
 from saleg.optimize.result import Found
 
 #: Designs a second stage begins with.
@@ -56,6 +57,7 @@ def improve(
     >>> [limit.figure for limit in better.problem.constraints]
     ['power', 'compression_ratio', 'peak_pressure']
     """
+    _refuse_other(found)
     wanted = Objective(objective) if isinstance(objective, str) else objective
     problem = found.problem
     limits = (*problem.constraints, *getattr(problem.score, "limits", ()))
@@ -79,7 +81,7 @@ def polish(found: Found, evaluations: int = 400, **further: Any) -> Found:
     -------
     Found
     """
-    start = winners(found, found.problem, 1)
+    start = winners(found, count=1)
     return optimize(found.problem, CompassSearch(), evaluations, start=start, **further)
 
 
@@ -103,6 +105,7 @@ def winners(found: Found, problem: Any = None, count: int = WINNERS) -> Any:
     InvalidProblem
         If the problem has other parameters.
     """
+    _refuse_other(found)
     problem = found.problem if problem is None else problem
     if list(problem.bounds) != list(found.problem.bounds):
         need = f"must have the parameters {', '.join(found.problem.bounds)}"
@@ -110,3 +113,8 @@ def winners(found: Found, problem: Any = None, count: int = WINNERS) -> Any:
     table = found.table.drop_duplicates(list(problem.bounds))
     order = np.argsort(-problem.told(table).fitness, kind="stable")
     return table.iloc[order[:count]]
+
+
+def _refuse_other(found: Any) -> None:
+    if not isinstance(found, Found):
+        raise InvalidProblem([Wrong("found", found, "-", "must be what optimize(...) returns")])

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from saleg.batch.table import TEXT
 from saleg.errors import Problem as Wrong
 from saleg.errors import nearest
 from saleg.optimize.methods.base import Method, Search, Start, mean_of
 from saleg.optimize.problem import MISSES, Problem, Told
-from saleg.quantities import problems, quantity
+from saleg.quantities import is_number, is_whole, problems, quantity
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -83,13 +84,7 @@ class Archive(Method):
         """All that keeps it from being used for a problem."""
         yield from super().wrong(problem)
         yield from problems(self, "method")
-        for number, axis in enumerate(self.axes):
-            where = f"method.axes[{number}]"
-            if axis.figure not in problem.units:
-                hint = nearest(axis.figure, problem.units)
-                yield Wrong(where, axis.figure, "-", f"no row has it{hint}")
-            if not (axis.low < axis.high and axis.cells >= 1):
-                yield Wrong(where, tuple(axis), "-", "must have low < high and at least one cell")
+        yield from wrong_axes("method.axes", self.axes, problem)
 
 
 class _Search:
@@ -147,3 +142,26 @@ def _best_of_cells(cells: np.ndarray, fitness: np.ndarray) -> np.ndarray:
     order = order[(cells[order] >= 0) & (fitness[order] > MISSES)]
     _, first = np.unique(cells[order], return_index=True)
     return np.sort(order[first])
+
+
+def wrong_axes(where: str, axes: Any, problem: Problem) -> Iterator[Wrong]:
+    """What is wrong with the axes of a map."""
+    # An Axis is a tuple itself.
+    if not isinstance(axes, (tuple, list)) or isinstance(axes, Axis) or not axes:
+        yield Wrong(where, axes, "-", "must be a tuple with at least one Axis")
+        return
+    for number, axis in enumerate(axes):
+        place = f"{where}[{number}]"
+        if not isinstance(axis, Axis):
+            yield Wrong(place, axis, "-", "must be an Axis")
+            continue
+        if not isinstance(axis.figure, str) or axis.figure not in problem.units:
+            yield Wrong(
+                place, axis.figure, "-", f"no row has it{nearest(axis.figure, problem.units)}"
+            )
+        elif axis.figure in TEXT:
+            yield Wrong(place, axis.figure, "-", "is text; must be the name of a number")
+        if not (is_number(axis.low) and is_number(axis.high) and axis.low < axis.high):
+            yield Wrong(place, tuple(axis), "-", "must have low < high, both numbers")
+        if not is_whole(axis.cells, 1):
+            yield Wrong(place, axis.cells, "-", "cells must be a whole number >= 1")

@@ -10,9 +10,17 @@ from queue import SimpleQueue
 import numpy as np
 
 from saleg.errors import Problem as Wrong
+from saleg.errors import nearest
 from saleg.optimize.methods.base import Method, Search, Start, mean_of, plain
 from saleg.optimize.problem import Problem, Told
-from saleg.quantities import problems, quantity
+from saleg.quantities import as_float, problems, quantity
+
+#: Strategies of scipy.
+STRATEGIES = tuple(
+    f"{name}{kind}"
+    for kind in ("bin", "exp")
+    for name in ("best1", "best2", "rand1", "rand2", "currenttobest1", "randtobest1")
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +59,12 @@ class DifferentialEvolution(Method):
         """All that keeps it from being used for a problem."""
         yield from super().wrong(problem)
         yield from problems(self, "method")
+        if self.strategy not in STRATEGIES:
+            hint = nearest(self.strategy, STRATEGIES) or f"; there are {', '.join(STRATEGIES)}"
+            yield Wrong("method.strategy", self.strategy, "-", f"unknown{hint}")
+        ends = [as_float(end) for end in self.mutation] if np.iterable(self.mutation) else []
+        if len(ends) != 2 or None in ends or not 0.0 <= ends[0] < ends[1] < 2.0:  # type: ignore[operator]
+            yield Wrong("method.mutation", self.mutation, "-", "must be two rising numbers below 2")
 
 
 class _Ended(Exception):

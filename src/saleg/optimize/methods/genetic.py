@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -10,7 +11,7 @@ import numpy as np
 from saleg.errors import Problem as Wrong
 from saleg.optimize.methods.base import Method, Search, Start, mean_of
 from saleg.optimize.problem import Problem, Told
-from saleg.quantities import problems, quantity
+from saleg.quantities import as_float, problems, quantity
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,6 +59,8 @@ class GeneticAlgorithm(Method):
         yield from super().wrong(problem)
         found = problems(self, "method")
         yield from found
+        if as_float(self.stop) is None or math.isnan(self.stop):
+            yield Wrong("method.stop", self.stop, "-", "must be a number")
         if not found and self.mutation + self.crossover == 0.0:
             yield Wrong(
                 "method.mutation", 0.0, "-", "no children: mutation or crossover must be > 0"
