@@ -5,6 +5,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -108,26 +109,45 @@ def test_interrupted_it_goes_on_and_ends_as_it_would_have(name, tmp_path):
     same(whole, o.optimize(problem, method, 230, 3, folder, workers=1))
 
 
+#: Real designs, few, in which failures, copies and multipliers occur.
+REAL = {
+    "ga of designs": o.GeneticAlgorithm(size=14, generations=9, stop=np.inf),
+    "cma of designs": o.CMAES(size=6, sample=12),
+}
+
+
 def _run(folder, name):
-    o.optimize(hill(swept=Hill(unstable_from=0.28)), METHODS[name][0], 300, 3, folder, workers=1)
+    if name in REAL:
+        return o.optimize(o.thesis_problem(4e3), REAL[name], 44, 3, folder, workers=1)
+    problem = hill(swept=Hill(unstable_from=0.28))
+    return o.optimize(problem, METHODS[name][0], 130, 3, folder, workers=1)
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="kills forks")
-@pytest.mark.parametrize("name", ["ga", "cma"])
-def test_killed_at_random_it_ends_as_it_would_have(name, tmp_path):
-    _run(tmp_path / "whole", name)
-    folder, rng = tmp_path / "killed", np.random.default_rng(5)
-    context = multiprocessing.get_context("fork")
-    for _ in range(3):
-        work = context.Process(target=_run, args=(folder, name))
+@pytest.mark.parametrize("name", [*METHODS, *REAL])
+def test_killed_ten_times_at_random_it_ends_as_it_would_have(name, tmp_path):
+    """To the last bit, whether killed before its first design, within a write, or near the end."""
+    _run(tmp_path / "first", name)  # compiles
+    begin = time.perf_counter()
+    whole = _run(tmp_path / "whole", name)
+    seconds = time.perf_counter() - begin
+    context, rng = multiprocessing.get_context("fork"), np.random.default_rng(5)
+    kills, folders = 0, [tmp_path / "killed 0"]
+    while kills < 10:
+        work = context.Process(target=_run, args=(folders[-1], name))
         work.start()
-        work.join(rng.uniform(0.05, 0.4))
+        work.join(rng.uniform(0.0, 0.5 * seconds))
         if work.exitcode is None:
             os.kill(work.pid, signal.SIGKILL)
         work.join()
-    _run(folder, name)
-    log = (folder / "designs.csv").read_bytes()
-    assert log == (tmp_path / "whole" / "designs.csv").read_bytes()
+        if work.exitcode == -signal.SIGKILL:
+            kills += 1
+        else:  # at its end before the kill
+            folders.append(tmp_path / f"killed {len(folders)}")
+    same(whole, _run(folders[-1], name))
+    for folder in folders:
+        for file in ("designs.csv", "progress.json", "optimisation.json"):
+            assert (folder / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
 
 
 def test_more_evaluations_go_on_from_a_finished_folder(tmp_path):

@@ -1,8 +1,9 @@
 """Section 4.3: what the text says of scores, on printed numbers and on our own designs."""
 
+import pandas as pd
 import pytest
 
-from saleg.thesis import optimisation
+from saleg.thesis import chapter_4, optimisation
 from saleg.thesis.tables import columns
 
 
@@ -39,3 +40,69 @@ def test_figures_and_problems_are_those_of_the_section():
     assert optimisation.problem(12).score.target_power is None
     assert optimisation.problem(10).score.greatest_compression_ratio == 25.0
     assert optimisation.problem(9).bounds["intake_temperature"] == (250.0, 1000.0)
+
+
+@pytest.mark.parametrize("number", [9, 10])
+def test_printed_designs_lie_within_the_bounds_of_their_problems(number):
+    """They may be printed with four digits, no more."""
+    given = chapter_4.inputs(number)
+    for name, (low, high) in optimisation.problem(number).bounds.items():
+        assert given[name].between(0.9999 * low, 1.0001 * high).all(), name
+
+
+@pytest.mark.parametrize(("number", "name"), [(9, "25 kW"), (10, "1 kW")])
+def test_a_design_for_each_target_power(number, name):
+    """Beyond 0.998 by our model and stable; two of all eighteen."""
+    row = optimisation.targets(number, [name], seed=0).loc[name]
+    assert row["score"] > 0.998
+    assert row["stable"]
+    assert row["power"] == pytest.approx(optimisation.TARGETS[name], rel=0.12)
+    assert row["efficiency"] > optimisation.GOOD
+
+
+@pytest.fixture(scope="module")
+def front():
+    return optimisation.front(11, evaluations=1000, seed=0)
+
+
+def test_the_front_beats_the_designs_of_table_11(front):
+    """A and B by our model, within their own limits, at the same power."""
+    names = list(optimisation.DESIGNS.values())
+    printed = chapter_4.run(11).loc[names]
+    better = optimisation.beaten(front, printed)
+    assert list(better.index) == names
+    for figure in ("efficiency", "power_density"):
+        assert (better[figure] >= printed[figure]).all()
+    assert better["stable"].all()
+    assert better["power"].between(*optimisation.FRONT_POWER).all()
+    assert better["compression_ratio"].between(*optimisation.RATIOS[11]).all()
+    for name, (low, high) in optimisation.problem(11).bounds.items():
+        assert better[name].between(low, high).all()
+
+
+def test_what_nothing_dominates_is_not_beaten(front):
+    best = front.front.loc[[front.front["efficiency"].idxmax()]]
+    assert len(optimisation.beaten(front, best)) == 1  # by itself
+    assert optimisation.beaten(front, best.assign(efficiency=0.9)).empty
+
+
+def test_good_designs_are_counted_by_power():
+    """Two good ones of three steady ones between 2 and 4 kW, at known temperatures."""
+    table = pd.DataFrame(
+        {
+            "status": "steady",
+            "power": [2.5e3, 3e3, 3.5e3, 9e3],
+            "efficiency": [0.42, 0.3, 0.45, 0.42],
+            "compression_ratio": [20.0, 20.0, 20.0, 40.0],
+            "peak_pressure": 1e7,
+            "intake_temperature": [300.0, 500.0, 400.0, 300.0],
+            "frequency": 50.0,
+            "stroke_to_bore": 2.0,
+            "score": 0.5,
+        }
+    )
+    counted = optimisation.by_power(table, (2e3, 4e3, 16e3))
+    assert counted["steady"].tolist() == [3, 1]
+    assert counted["good"].tolist() == [2, 0]
+    assert counted["intake_temperature_5"].iloc[0] == pytest.approx(305.0)
+    assert counted["intake_temperature_95"].iloc[0] == pytest.approx(395.0)

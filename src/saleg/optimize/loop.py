@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from pathlib import Path
@@ -174,8 +174,8 @@ class _Course:
         self._span = high - self._low
         self._workers: dict[str, Any] = {"executor": executor, "workers": workers}
         self._given = np.zeros((0, len(self._low)))
-        # Where the row of a design is that was evaluated before: in which table, and where there.
-        self._known: dict[bytes, tuple[pd.DataFrame, int]] = {}
+        # Where the row of a design is that was evaluated before: in which columns, and where there.
+        self._known: dict[bytes, tuple[dict[str, np.ndarray], int]] = {}
         self._leaders: list[pd.DataFrame] = []
         self._start = ""
         if start is not None:
@@ -278,20 +278,29 @@ class _Course:
                 new.setdefault(key, number)
         values = self._values(designs[list(new.values())])
         rows = self._problem.rows(values, **self._workers).assign(verified=False)
-        place = dict(zip(new, range(len(new)), strict=True))
-        pieces = [rows]
-        for key in keys:
-            if key not in place:
-                table, row = self._known[key]
-                place[key] = len(place)
-                pieces.append(table[row : row + 1])
+        old = dict.fromkeys(key for key in keys if key not in new)
+        place = {key: number for number, key in enumerate([*new, *old])}
         copied = [new.get(key) != number for number, key in enumerate(keys)]
-        return joined(pieces).iloc[[place[key] for key in keys]].assign(copied=copied)
+        table = joined([rows, self._copies(old, rows)])
+        return table.iloc[[place[key] for key in keys]].assign(copied=copied)
+
+    def _copies(self, keys: Collection[bytes], like: pd.DataFrame) -> pd.DataFrame:
+        """Rows of designs that were evaluated before, with the columns of others."""
+        import pandas as pd
+
+        # Rows as frames would take longer than evaluating them.
+        held = [self._known[key] for key in keys]
+        columns = {}
+        for name in map(str, like):
+            kind = like[name].to_numpy().dtype
+            columns[name] = np.array([known[name][row] for known, row in held], dtype=kind)
+        return pd.DataFrame(columns)
 
     def _remember(self, rows: pd.DataFrame, designs: np.ndarray) -> None:
         """Where the rows of designs are, for copies of them."""
+        columns = {str(name): rows[name].to_numpy() for name in rows}
         for number, design in enumerate(designs):
-            self._known.setdefault(design.tobytes(), (rows, number))
+            self._known.setdefault(design.tobytes(), (columns, number))
 
     def _verified(self, rows: pd.DataFrame, known: int) -> pd.DataFrame:
         """Rows of a generation; of what leads all that was found, the multipliers are computed.
