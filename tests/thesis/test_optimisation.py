@@ -57,7 +57,7 @@ def test_a_design_for_each_target_power(number, name):
     assert row["score"] > 0.998
     assert row["stable"]
     assert row["power"] == pytest.approx(optimisation.TARGETS[name], rel=0.12)
-    assert row["efficiency"] > optimisation.GOOD
+    assert row["efficiency"] > 0.40  # the target of the text
 
 
 @pytest.fixture(scope="module")
@@ -86,13 +86,30 @@ def test_what_nothing_dominates_is_not_beaten(front):
     assert optimisation.beaten(front, best.assign(efficiency=0.9)).empty
 
 
+def test_cool_intakes_are_favoured_and_short_strokes_are_not_by_themselves():
+    """Over the whole box efficiency falls with the temperature of the intake as the text finds; of
+    low ratios of stroke to bore that does not hold (docs/optimisation.md)."""
+    table = optimisation.uniform(600)
+    table = table[table["status"] == "steady"]
+    ranks = table[["efficiency", "intake_temperature", "stroke_to_bore"]].rank().corr()
+    assert ranks.loc["efficiency", "intake_temperature"] < -0.8
+    assert ranks.loc["efficiency", "stroke_to_bore"] > -0.1
+
+
+def test_a_search_between_two_temperatures_stays_there():
+    cool, hot = optimisation.along("intake_temperature", (300, 350, 700), evaluations=400).iloc
+    assert 300.0 <= cool["intake_temperature"] <= 350.0 <= hot["intake_temperature"] <= 700.0
+    assert cool["best_score"] > hot["best_score"]
+    assert cool["efficiency"] > hot["efficiency"]
+
+
 def test_good_designs_are_counted_by_power():
     """Two good ones of three steady ones between 2 and 4 kW, at known temperatures."""
     table = pd.DataFrame(
         {
             "status": "steady",
             "power": [2.5e3, 3e3, 3.5e3, 9e3],
-            "efficiency": [0.42, 0.3, 0.45, 0.42],
+            "efficiency": [0.42, 0.2, 0.45, 0.42],
             "compression_ratio": [20.0, 20.0, 20.0, 40.0],
             "peak_pressure": 1e7,
             "intake_temperature": [300.0, 500.0, 400.0, 300.0],

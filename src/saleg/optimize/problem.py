@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 #: Fitness of a design without a steady state, and from where downwards those that miss limits lie.
 FAILED, MISSES = -2e9, -1e9
+#: Pieces of work for each worker in a generation: so many that none waits long for the last one.
+PIECES = 16
 #: Columns of a table that say whether an orbit is stable.
 STABILITY = ("stable", "kind", "largest_multiplier", "beat_period")
 
@@ -291,7 +293,7 @@ def evaluated(
     import pandas as pd
 
     solver = partial(problem.subject.solver, problem.rtol, multipliers, False, problem.effort)
-    at_once = 4 * (workers or os.cpu_count() or 1)
+    at_once = PIECES * (workers or os.cpu_count() or 1)
     chunk = min(max(math.ceil(len(points) / at_once), 1), CHUNK)
     evaluation = Evaluation(points, problem.subject, solver, chunk, executor, workers)
     rows = evaluation.table(dict(evaluation.parts()))

