@@ -260,11 +260,11 @@ def is_sound(C, y):
 
 @compiled
 def next_time_event(C, t_end):
-    """Earliest known time at which something happens: end of combustion, or of the run."""
+    """Earliest known time of an event: breakpoint or end of a combustion, or end of the run."""
     t = t_end
     for side in range(2):
         if C[side].mode == BURNING:
-            t = min(t, C[side].t_end)
+            t = min(t, C[side].t_breakpoint)
     return t
 
 

@@ -42,6 +42,7 @@ from saleg.kernel.slots import (
     gas_properties_breakpoint,
     gas_properties_gamma,
     heat_release_burn_rate,
+    heat_release_next_breakpoint,
     heat_transfer_coefficient,
     heat_transfer_coefficient_constants,
     ignition_rate,
@@ -49,6 +50,11 @@ from saleg.kernel.slots import (
     springs_force,
 )
 from saleg.laws.arguments import Charge, Gas, Motion
+
+# How near a breakpoint of the burn rate counts as reached, and how far beside it is beyond it, over
+# the duration of the combustion.
+AT_BREAKPOINT = 1e-9
+ONE_SIDE = 1e-15
 
 
 @inline
@@ -142,7 +148,7 @@ def heat_release(P, C, side, t):
     c = C[side]
     if c.mode != BURNING:
         return 0.0
-    u = min(max((t - c.t_ignition) / c.duration, 0.0), 1.0)
+    u = min(max((t - c.t_ignition) / c.duration, c.first_phase), c.last_phase)
     energy = c.fuel_to_burn * c.lower_heating_value
     return energy / c.duration * heat_release_burn_rate(P, side, u)
 
@@ -241,6 +247,22 @@ def rhs(P, E, C, t, y, dy, motored):
     rates_of_motion(P, E, t, y, dy, gas_force)
 
 
+@inline
+def bound_phase(P, E, C, side):
+    """Find the breakpoints of the burn rate that the present phase of a combustion lies between.
+
+    Steps see the rate on their side of either; a breakpoint within rounding has been reached.
+    """
+    c = C[side]
+    u = (E.t - c.t_ignition) / c.duration
+    slack = AT_BREAKPOINT + 1e-15 * abs(E.t) / c.duration
+    reached = heat_release_next_breakpoint(P, side, u - slack)
+    ahead = heat_release_next_breakpoint(P, side, u + slack)
+    c.first_phase = reached + ONE_SIDE if reached <= u + slack else 0.0
+    c.last_phase = ahead - ONE_SIDE if u + slack < ahead < 1.0 else 1.0
+    c.t_breakpoint = c.t_ignition + ahead * c.duration if c.last_phase < 1.0 else c.t_end
+
+
 @compiled
 def refresh(P, E, C, y):
     """Compute the numbers that stay the same until the next event."""
@@ -260,3 +282,5 @@ def refresh(P, E, C, y):
         c.heat_first, c.heat_second, c.heat_third = heat
         ignition = ignition_rate_constants(P, side, gas, charge)
         c.ignition_first, c.ignition_second, c.ignition_third = ignition
+        if c.mode == BURNING:
+            bound_phase(P, E, C, side)

@@ -59,6 +59,11 @@ def heat_release_burnt_fraction(P: Any, side: int, u: float) -> float:
     return _chamber(P, side).heat_release.burnt_fraction(u)
 
 
+def heat_release_next_breakpoint(P: Any, side: int, u: float) -> float:
+    """Next phase at which the burn rate is not smooth."""
+    return _chamber(P, side).heat_release.next_breakpoint(u)
+
+
 def ignition_rate(
     P: Any, side: int, gas: Gas, charge: Charge, logarithms: Logarithms | None = None
 ) -> float:

@@ -428,6 +428,9 @@ def switch(P, E, C, O, y, landed, peaks, tables, control):
     because it has turned belongs to the stroke that begins and waits for the next call.
     """
     changed = change_chambers(P, E, C, O, y, tables)
+    for side in range(2):
+        if C[side].mode == BURNING and E.t >= C[side].t_breakpoint:
+            changed = True
     was_motoring = E.motoring
     if landed == DEAD_CENTRE:
         turn(P, E, C, y, peaks, tables, control)

@@ -116,7 +116,8 @@ class HeatRelease(Law):
     """Course of the heat release once the charge is lit."""
 
     slot = "heat_release"
-    compiled = ("duration", "burn_rate", "burnt_fraction")
+    compiled = ("duration", "burn_rate", "burnt_fraction", "next_breakpoint")
+    optional = ("next_breakpoint",)
 
     def duration(self, gas: Gas, charge: Charge) -> float:
         """Combustion duration [s], asked once, at the start of combustion."""
@@ -129,6 +130,13 @@ class HeatRelease(Law):
     def burnt_fraction(self, u: float) -> float:
         """Burnt fraction [-] at `u`, the time since start of combustion over the duration."""
         raise NotImplementedError
+
+    def next_breakpoint(self, u: float) -> float:
+        """Least phase above `u` at which the burn rate is not smooth [-]; 1 or more for none.
+
+        Steps end there, and up to there they see the rate on the near side of it.
+        """
+        return 1.0
 
 
 class Ignition(Law):
