@@ -138,7 +138,7 @@ def advance_to_event(P, E, C, O, tableau, h, aim, y, k, y_new):
         h = locate(P, E, C, O, tableau, E.t, h, guess, y, k, y_new, event)
         landed = event
     if landed >= 0:
-        land(C, landed, y_new)
+        land(E, C, landed, y_new)
     return h, landed
 
 

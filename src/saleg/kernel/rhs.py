@@ -4,7 +4,7 @@ Arguments shared by all functions here: `P` the laws, `E` the engine's record, `
 chambers' records (see :mod:`saleg.kernel.layout`), `side` 0 for left and 1 for right.
 """
 
-from math import exp, log, pi, sin
+from math import exp, inf, log, pi, sin
 
 from saleg.kernel.copies import motored_gas, with_pressure_rate
 from saleg.kernel.jit import compiled, inline
@@ -38,6 +38,7 @@ from saleg.kernel.slots import (
     alternator_current_rate,
     alternator_electrical_power,
     alternator_force,
+    alternator_next_breakpoint,
     friction_force,
     gas_properties_breakpoint,
     gas_properties_gamma,
@@ -48,11 +49,12 @@ from saleg.kernel.slots import (
     ignition_rate,
     ignition_rate_constants,
     springs_force,
+    springs_next_breakpoint,
 )
 from saleg.laws.arguments import Charge, Gas, Motion
 
-# How near a breakpoint of the burn rate counts as reached, and how far beside it is beyond it, over
-# the duration of the combustion.
+# How near a breakpoint counts as reached, over the half stroke or the duration of the combustion, and
+# how far beside it is beyond it.
 AT_BREAKPOINT = 1e-9
 ONE_SIDE = 1e-15
 
@@ -263,9 +265,28 @@ def bound_phase(P, E, C, side):
     c.t_breakpoint = c.t_ignition + ahead * c.duration if c.last_phase < 1.0 else c.t_end
 
 
+@inline
+def find_position(P, E, x):
+    """Find the next position at which a force on the translator has a corner."""
+    slack = AT_BREAKPOINT * E.length_scale
+    E.x_breakpoint = inf
+    if E.direction == 0.0:
+        return
+    beyond = x + E.direction * slack
+    spring = springs_next_breakpoint(P, beyond, E.direction)
+    alternator = alternator_next_breakpoint(P, beyond, E.direction)
+    nearest = inf
+    for place in (spring, alternator):
+        way = E.direction * (place - x)
+        if slack < way < nearest:
+            nearest = way
+            E.x_breakpoint = place
+
+
 @compiled
 def refresh(P, E, C, y):
     """Compute the numbers that stay the same until the next event."""
+    find_position(P, E, y[X])
     for side in range(2):
         c = C[side]
         if c.mode == OPEN:

@@ -113,6 +113,11 @@ def springs_energy(P: Any, motion: Motion) -> float:
     return P.springs.energy(motion)
 
 
+def springs_next_breakpoint(P: Any, x: float, direction: float) -> float:
+    """Next position at which the force of the springs has a corner."""
+    return P.springs.next_breakpoint(x, direction)
+
+
 def friction_at_dead_centre(P: Any, memory: float, stroke: Stroke) -> float:
     """Number the friction law remembers."""
     return P.friction.at_dead_centre(memory, stroke)
@@ -141,6 +146,11 @@ def alternator_current_rate(P: Any, load_weight: float, motion: Motion) -> float
 def alternator_electrical_power(P: Any, load_weight: float, motion: Motion) -> float:
     """Electrical power."""
     return P.alternator.electrical_power(load_weight, motion)
+
+
+def alternator_next_breakpoint(P: Any, x: float, direction: float) -> float:
+    """Next position at which the force of the alternator has a corner."""
+    return P.alternator.next_breakpoint(x, direction)
 
 
 def call_at(address: Any, numbers: int, memory: int, signals: int, commands: int) -> None:

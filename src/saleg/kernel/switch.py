@@ -47,6 +47,7 @@ from saleg.kernel.layout import (
     PEAK_TEMPERATURE,
     PEAK_VELOCITY,
     PORT_WORK,
+    POSITION,
     RIGHT,
     SPEED_SQUARED,
     THETA,
@@ -427,7 +428,7 @@ def switch(P, E, C, O, y, landed, peaks, tables, control):
     Chambers change first, one after the other, then the translator turns. What is due in a chamber
     because it has turned belongs to the stroke that begins and waits for the next call.
     """
-    changed = change_chambers(P, E, C, O, y, tables)
+    changed = change_chambers(P, E, C, O, y, tables) or landed == POSITION
     for side in range(2):
         if C[side].mode == BURNING and E.t >= C[side].t_breakpoint:
             changed = True
@@ -442,7 +443,7 @@ def switch(P, E, C, O, y, landed, peaks, tables, control):
         side = LEFT if E.direction > 0.0 else RIGHT
         record_event(E, C, O, y, kind, side, tables)
     if landed >= HEAD:
-        record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, tables)
+        record_event(E, C, O, y, kind_of_turn(landed), landed % 2, tables)
     if changed:
         refresh(P, E, C, y)
     return changed

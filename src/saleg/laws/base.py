@@ -7,6 +7,7 @@ functions, ``math`` and ``np``. It does not call its other methods through ``sel
 
 from __future__ import annotations
 
+import math
 from typing import ClassVar, NamedTuple
 
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
@@ -200,7 +201,8 @@ class Springs(Law):
     """Springs between translator and housing."""
 
     slot = "springs"
-    compiled = ("force", "energy")
+    compiled = ("force", "energy", "next_breakpoint")
+    optional = ("next_breakpoint",)
 
     def force(self, motion: Motion) -> float:
         """Force on the translator [N], positive to the right."""
@@ -209,6 +211,13 @@ class Springs(Law):
     def energy(self, motion: Motion) -> float:
         """Energy stored [J]."""
         raise NotImplementedError
+
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position after `x` on the way right (`direction` 1) or left (-1) [m]; inf for none.
+
+        One at which the force, continuous though, is not smooth: steps end there.
+        """
+        return math.inf
 
 
 class Friction(Law):
@@ -234,8 +243,8 @@ class Alternator(Law):
     """Linear alternator; its load weight is set anew at each dead centre."""
 
     slot = "alternator"
-    compiled = ("at_dead_centre", "force", "electrical_power", "current_rate")
-    optional = ("current_rate",)
+    compiled = ("at_dead_centre", "force", "electrical_power", "current_rate", "next_breakpoint")
+    optional = ("current_rate", "next_breakpoint")
 
     def at_dead_centre(self, load_weight: float, stroke: Stroke) -> float:
         """Load weight [-] until the next dead centre."""
@@ -252,6 +261,10 @@ class Alternator(Law):
     def current_rate(self, load_weight: float, motion: Motion) -> float:
         """Rate of the current [A/s], for a law that has one (``motion.current``)."""
         return 0.0
+
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position after `x` at which the force is not smooth [m], as of :class:`Springs`."""
+        return math.inf
 
 
 #: Slots of one chamber and slots of the whole engine, by name.

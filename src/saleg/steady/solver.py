@@ -24,7 +24,7 @@ from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import STEPS_PER_CALL, Replay
 from saleg.simulation.initial_state import natural_period, prepare
 from saleg.simulation.integration import integrate
-from saleg.simulation.outcome import is_dead, is_idling
+from saleg.simulation.outcome import MAX_IMBALANCE, imbalance, is_dead, is_idling
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
 from saleg.simulation.settings import Settings, SettingsError
@@ -47,6 +47,10 @@ MIRROR_MISSED = 10.0
 #: Factor on the tolerance with which an engine that seems unsteady is tried once more.
 FINER = 1e-2
 FINEST = 1e-9
+#: Imbalance of the energy of a cycle beyond which a fixed point does not count, over the tolerance
+#: of the integrator, but not below what a force with corners of its own may leave.
+ENERGY = 1e3
+MIN_IMBALANCE = 1e-4
 #: Natural periods simulated where no fixed point was found; 4 s for the base case.
 FALLBACK_PERIODS = 108.0
 #: What a quick search may take: maps from one start, and steps to one return.
@@ -361,7 +365,7 @@ def result_of(
     engine, strokes = return_map.engine, return_map.strokes[:2].copy()
     snapshots = Snapshots(*(part.copy() for part in return_map.snapshots))
     settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
-    status, what = _kind(engine, strokes)
+    status, what = _kind(engine, strokes, rtol)
     cycle = "half-cycle" if return_map.mirrored else "full-cycle"
     message = (
         f"{what}fixed point of the {cycle} map, found in {spent} half cycles; "
@@ -380,8 +384,14 @@ def result_of(
     )
 
 
-def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
+def _kind(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers, and that as the beginning of a message."""
+    off = imbalance(strokes[-1], strokes)
+    if off > min(max(ENERGY * rtol, MIN_IMBALANCE), MAX_IMBALANCE):
+        return Status.STEP_FAILURE, (
+            f"the energy balance is off by {100.0 * off:.2g} % of its largest term; try a smaller "
+            "rtol, or check that the energies of the laws belong to their forces: "
+        )
     if is_dead(engine, strokes):
         return Status.STALLED, "swings without firing: "
     if is_idling(engine, strokes):
