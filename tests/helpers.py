@@ -1,5 +1,6 @@
 """Shared by the tests: engines with a closed-form solution, and one cycle at given settings."""
 
+import dataclasses
 import math
 import re
 from pathlib import Path
@@ -9,6 +10,7 @@ import numpy as np
 from saleg import BounceChamber, Engine, Translator, sweep
 from saleg.engine.start import CompressedCharge
 from saleg.laws import ConstantGamma, LinearLoad, LinearSprings, ViscousFriction
+from saleg.laws.control.base import LoadControl
 from saleg.simulation.course import Course
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.settings import Detail, Settings
@@ -41,6 +43,17 @@ def bounce_engine(
         friction=ViscousFriction(0.0),
         alternator=LinearLoad(load_constant=0.0, regulator_gain=0.0),
         start=CompressedCharge(position=position, burning=0.0),
+    )
+
+
+def single_piston(base, *, mass=2.4, length=0.15, pressure=4e5, bore=0.064, cylinder=None, **load):
+    """The cylinder of the base case opposite an adiabatic bounce chamber."""
+    return Engine(
+        translator=Translator(mass=mass),
+        left=base.left if cylinder is None else cylinder,
+        right=BounceChamber(bore=bore, half_stroke=length, pressure=pressure),
+        springs=LinearSprings(stiffness=20e3),
+        alternator=LinearLoad(**{"load_constant": 30.0, **load}),
     )
 
 
@@ -96,3 +109,31 @@ def border(table, name):
     assert len(at) == 1
     i = at[0]
     return x[i] - y[i] * (x[i + 1] - x[i]) / (y[i + 1] - y[i])
+
+
+def compiled_method(law, method):
+    """A method of a law as the kernel has it, of the arguments after ``self``."""
+    import math
+
+    import numba
+    import numpy as np
+
+    from saleg.compiler.records import record_of
+    from saleg.compiler.text import methods_text
+
+    names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
+    base = next(kind for kind in type(law).__mro__ if "slot" in vars(kind))
+    exec("\n".join(methods_text(type(law), method, "one", base, names)), names)
+    record = np.zeros(1, record_of(law))[0]
+    for name in record.dtype.names:
+        record[name] = getattr(law, name, 0.0)
+    return lambda *arguments: names[f"one_{method}"](record, *arguments)
+
+
+@dataclasses.dataclass(frozen=True)
+class Asserting(LoadControl):
+    """Fails by an assertion after a while; in a test file pytest would have written it anew."""
+
+    def weight(self, memory, signals):
+        assert signals.t < 0.1
+        return 1.0

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import saleg
+from helpers import compiled_method
 from saleg import InvalidEngine, LawError, UnknownPath
 from saleg.cli import main
 from saleg.compiler.compiled_engine import kernel_for
@@ -35,16 +36,6 @@ def module(name, text, **names):
     return made
 
 
-def compiled(law, method):
-    text = "\n".join(methods_text(type(law), method, "one", ENGINE_SLOTS[law.slot]))
-    import math
-
-    names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
-    exec(text, names)
-    record = np.zeros(1, [("nothing", float)])
-    return lambda *arguments: names[f"one_{method}"](record[0], *arguments)
-
-
 def test_names_of_helpers_and_constants_do_not_collide():
     a = module("attack_a", "K = 1.0\ndef f(x):\n    return K * x\n")
     b = module("attack_b", "K = 100.0\ndef f(x):\n    return K * x\n")
@@ -63,7 +54,7 @@ class Mixed(Springs):
     law = module("attack_law", text, Springs=Springs, fa=a.f, fb=b.f).Mixed()
     motion = saleg.laws.Motion(0.0, 2.0, 0.0, 1.0)
     assert law.force(motion) == 3 * 2 + 2 + 10 * 200
-    assert compiled(law, "force")(motion) == law.force(motion)
+    assert compiled_method(law, "force")(motion) == law.force(motion)
 
 
 STALE = """
@@ -228,6 +219,7 @@ class NanPower(saleg.laws.LinearLoad):
 def test_a_law_that_returns_nan_is_a_step_failure(base):
     run = saleg.simulate(base.replace(alternator=NanPower()), 0.1)
     assert run.status is saleg.Status.STEP_FAILURE
+    assert "NanPower.electrical_power returns nan at " in run.message
 
 
 def test_an_engine_in_equilibrium_says_that_it_never_moved(base):

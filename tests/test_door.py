@@ -241,18 +241,19 @@ def test_a_part_of_a_sweep_that_nests_too_deeply_is_done_again(base, tmp_path):
         sweep.load(tmp_path / "sweep")
 
 
-def test_a_folder_in_place_of_a_cached_kernel(tmp_path):
+def test_a_folder_in_place_of_a_cached_kernel(tmp_path, monkeypatch):
     from saleg.compiler.module import load
 
-    first = load("x = 1\n", "kernel", tmp_path)
+    monkeypatch.setenv("SALEG_CACHE_DIR", str(tmp_path))
+    first = load("x = 1\n", "kernel")
     path = next(tmp_path.glob("*.py"))
-    assert first.lock == path.with_suffix(".lock")
+    assert first.kept.lock == path.with_suffix(".lock")
     for name in (path, path.with_suffix(".lock")):
         name.unlink()
         name.mkdir()
-        again = load("x = 1\n", "kernel", tmp_path)
+        again = load("x = 1\n", "kernel")
         assert again.module.x == 1
-        assert again.lock.is_file()
+        assert again.kept.lock.is_file()
         name.rmdir()
         name.touch()
 

@@ -107,6 +107,10 @@ class ControllerError(SalegError, ValueError):
     """A command an engine cannot be given."""
 
 
+class AxesError(SalegError, ValueError):
+    """Axes a figure cannot be drawn on: too few, too many, or none at all."""
+
+
 class StartError(SalegError, ArithmeticError):
     """An engine whose laws cannot be evaluated where it starts."""
 

@@ -319,15 +319,20 @@ def unusual(node: Any, path: str = "") -> list[Problem]:
     """
     found: list[Problem] = []
     kind: Any = type(node)
-    for field in _fields(kind):
-        limits, value = field.metadata.get("limits"), getattr(node, field.name)
-        where = f"{path}.{field.name}" if path else field.name
-        if limits is not None:
-            if limits.usual and value and not limits.usual[0] <= value <= limits.usual[1]:
-                found.append(Problem(where, value, limits.unit, _usual_text(value, limits)))
-        elif dataclasses.is_dataclass(value):
-            found.extend(unusual(value, where))
+    for name, limits in _with_usual_range(kind):
+        value, where = getattr(node, name), f"{path}.{name}" if path else name
+        if limits is None:
+            found.extend(unusual(value, where) if dataclasses.is_dataclass(value) else ())
+        elif value and not limits.usual[0] <= value <= limits.usual[1]:
+            found.append(Problem(where, value, limits.unit, _usual_text(value, limits)))
     return found
+
+
+@lru_cache(maxsize=1024)
+def _with_usual_range(kind: Any) -> tuple[tuple[str, Any], ...]:
+    """Fields with a usual range, and that; None for fields that may be dataclasses with some."""
+    limits = [(field.name, field.metadata.get("limits")) for field in _fields(kind)]
+    return tuple((name, found) for name, found in limits if found is None or found.usual)
 
 
 def _usual_text(value: float, limits: Limits) -> str:

@@ -1,5 +1,6 @@
 """Who does the work of a batch: threads, processes, a Dask cluster, and what they lose."""
 
+import dataclasses
 import os
 import signal
 import subprocess
@@ -10,8 +11,10 @@ from multiprocessing import get_context
 import numpy as np
 import pytest
 
+import saleg
 from helpers import SMALL_SWEEP
-from saleg import sweep
+from saleg import SalegError, sweep
+from saleg.laws import LinearSprings
 
 
 def test_results_do_not_depend_on_who_does_the_work():
@@ -38,6 +41,21 @@ def test_a_broken_pool_costs_time_not_results(tmp_path):
         with pytest.warns(RuntimeWarning, match="executor broke"):
             table = sweep.run(points, executor=pool, chunk=4, folder=tmp_path / "s", report=kill)
     assert table.equals(whole)
+
+
+def test_work_that_cannot_travel_is_refused(base):
+    """Before, an AttributeError of pickle's or a TypeError, naming nothing of the user's."""
+
+    @dataclasses.dataclass(frozen=True)
+    class Local(LinearSprings):
+        pass
+
+    engines = [base.replace(springs=Local(stiffness)) for stiffness in (29e3, 30e3)]
+    with (
+        ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool,
+        pytest.raises(SalegError, match=r"cannot be sent to another process.*Local.*top of a"),
+    ):
+        saleg.steady_states(engines, executor=pool)
 
 
 @pytest.fixture

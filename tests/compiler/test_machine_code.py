@@ -9,7 +9,9 @@ import pytest
 
 from saleg.compiler import machine_code
 from saleg.compiler.kernel import Kernel
-from saleg.compiler.text import COMPILED_HEADER, RUN_AT, RUN_PLAINLY, own_text
+from saleg.compiler.text import COMPILED_HEADER, own_text
+
+RUN_AT, RUN_PLAINLY = "compiler/run_at.py", "kernel/run_plainly.py"
 
 TOY = """
 import numba

@@ -8,9 +8,10 @@ import pytest
 import saleg
 import saleg.compiler
 from saleg import LawError
-from saleg.compiler import machine_code
+from saleg.compiler import machine_code, search
 from saleg.compiler.compiled_engine import kernel_for
-from saleg.compiler.text import INTEGRATOR, compose, own_text
+from saleg.compiler.module import load
+from saleg.compiler.text import INTEGRATOR, compose, compose_search, own_text
 from saleg.laws.base import CHAMBER_SLOTS
 
 
@@ -55,9 +56,14 @@ def test_alike_sides_share_their_functions_and_others_do_not(base):
     assert "def both_ignition_rate(" in found
 
 
-def test_what_is_not_kept_asks_for_no_cache(base):
-    assert "cache=True" in compose(classes_of(base), ("plain_rhs",))
-    assert "cache=True" not in compose(classes_of(base), ("plain_rhs",), kept=False)
+@pytest.mark.parametrize("keeps", [True, False])
+def test_what_is_not_kept_asks_for_no_cache(base, keeps, tmp_path, monkeypatch):
+    monkeypatch.setenv("SALEG_CACHE_DIR", str(tmp_path))
+    text = compose(classes_of(base), ("plain_rhs",))
+    loaded = load(text, "kernel", keeps=keeps)
+    place = loaded.module.rates_of_records.stats.cache_path
+    assert place == (str(loaded.kept.code) if keeps else None)
+    assert bool(list(tmp_path.iterdir())) == keeps
 
 
 def test_a_name_that_stands_for_two_things_is_refused(base):
@@ -72,10 +78,19 @@ def test_docstrings_of_modules_and_our_imports_are_stripped():
     assert "def take_step" in step
 
 
+def test_the_search_is_composed_once_without_any_law(base):
+    found = compose_search()
+    assert "# --- compiler/run_at.py" in found
+    assert "# --- kernel/orbit.py" in found
+    assert "# --- kernel/rhs.py" not in found
+    assert "# --- kernel/orbit.py" not in compose(classes_of(base))
+
+
 def test_without_addresses_the_integrator_is_called_by_name(base, monkeypatch):
-    assert "# --- compiler/run_at.py" in compose(classes_of(base))
+    assert search.modules() == INTEGRATOR
     gone = "numba.core.codegen:JITCodeLibrary.gone"
     monkeypatch.setattr(machine_code, "ADDRESS_NEEDS", (*machine_code.ADDRESS_NEEDS, gone))
-    found = compose(classes_of(base))
+    found = compose(classes_of(base), search.modules())
     assert "# --- compiler/run_at.py" not in found
+    assert "# --- kernel/orbit.py" in found
     assert "# --- kernel/run_plainly.py" in found

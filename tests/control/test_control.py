@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import saleg
+from helpers import Asserting, single_piston
 from saleg import Controller, Status, control
 from saleg.compiler.controllers import control_of
 from saleg.control import Demand, Plant, Sensors, generator, motor
@@ -25,6 +26,7 @@ from saleg.laws import (
     HeatedIntake,
     LinearSprings,
     LoadControl,
+    NeverMotored,
     PowerDemand,
     ResonanceSearch,
     ScaledLoad,
@@ -308,15 +310,6 @@ def test_a_compiled_part_that_fails_ends_the_run_and_is_named(transient):
 
 
 @dataclasses.dataclass(frozen=True)
-class Asserting(LoadControl):
-    """Fails by an assertion after a while."""
-
-    def weight(self, memory, signals):
-        assert signals.t < 0.1
-        return 1.0
-
-
-@dataclasses.dataclass(frozen=True)
 class Dividing(LoadControl):
     """Fails at once: there is no frequency before the first stroke."""
 
@@ -521,6 +514,50 @@ def test_engines_without_fuel_and_with_unlike_sides_are_controlled(transient):
     run = control.simulate(unlike, Regulated(), 0.3)
     plain = saleg.simulate(unlike, 0.3)
     np.testing.assert_allclose(run.dead_centres.t, plain.dead_centres.t, rtol=1e-9)
+
+
+@pytest.mark.parametrize("sensors", [None, Sensors()])
+def test_signals_have_the_compression_ratio_of_the_cylinder(base, sensors):
+    """By its volumes; the clearances of both chambers together would say 7.2 for 16.6."""
+    engine = single_piston(base, load_constant=49.66, regulator_gain=0.0)
+    listening = Listening()
+    run = control.simulate(engine, listening, 0.5, sensors=sensors)
+    history = run.orbit.history
+    shown = [signals.compression_ratio for signals in listening.seen]
+    assert shown[1:] == pytest.approx(run.dead_centres.compression_ratio.tolist(), rel=1e-9)
+    assert shown[-1] == pytest.approx(history.V_left.max() / history.V_left.min(), rel=1e-2)
+
+
+def test_a_threshold_is_passed_by_the_cylinder_of_a_single_piston_engine(base):
+    engine = single_piston(base, load_constant=49.66, regulator_gain=0.0)
+    run = control.simulate(engine, Controller(state_logic=CompressionThreshold()), 0.5)
+    free = saleg.simulate(engine, 0.5)
+    assert free.cycles.compression_ratio.min() > 12.0
+    assert not run.dead_centres.motoring.any()
+    assert run.performance.power == pytest.approx(free.performance.power, rel=1e-6)
+
+
+@pytest.mark.parametrize("state_logic", [NeverMotored(), CompressionThreshold(hysteresis=2.0)])
+def test_a_controlled_engine_has_the_run_of_its_mirror_image(base, state_logic):
+    """Unlike sides, fuel, intake and motor by the compression ratio: no side is the first."""
+    changes = {"left.bore": 0.060, "left.equivalence_ratio": 0.5, "right.intake.temperature": 340.0}
+    engine = base.replace(**changes)
+    start = dataclasses.replace(engine.start, position=-engine.start.position)
+    image = dataclasses.replace(engine, left=engine.right, right=engine.left, start=start)
+    controller = Controller(
+        state_logic=state_logic,
+        motor_control=ResonanceSearch(base_frequency=38.0),
+        fuel_control=FuelOnDemand(times=(0.1, 0.1)),
+        intake_control=HeatedIntake(times=(0.1, 0.1)),
+    )
+    there, here = (control.simulate(one, controller, 0.3, rtol=1e-9) for one in (engine, image))
+    wanted, found = there.dead_centres, here.dead_centres
+    assert len(found) == len(wanted)
+    np.testing.assert_allclose(found.x, -wanted.x, rtol=1e-5)
+    for name in ("compression_ratio", "equivalence_ratio", "intake_temperature", "motoring"):
+        np.testing.assert_allclose(
+            found[name].astype(float), wanted[name].astype(float), rtol=1e-5, err_msg=name
+        )
 
 
 def test_start_up_survives_coarse_sensors(at_rest):

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from saleg import laws
+from saleg.compiler.imported_text import NoSource
 from saleg.compiler.records import numbers_of, record_of
-from saleg.compiler.source import Borrowed, NoSource
+from saleg.compiler.source import Borrowed
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.compiler.text import methods_text
 from saleg.kernel.logarithms import Logarithms

@@ -320,6 +320,20 @@ def test_dynamics_has_two_panels_and_one_legend(base_run):
         plotting.dynamics(base_run, [motion])
 
 
+def test_axes_that_do_not_fit_are_refused(base_run):
+    """One for a figure of four came back as a bare ValueError, four for one as AttributeError."""
+    four = new_figure().subplots(2, 2)
+    for draw, ax, said in (
+        (plotting.approach_to_steady_state, four[0, 0], "needs 4 axes, not 1"),
+        (plotting.approach_to_steady_state, "abcd", "needs 4 axes, not 1"),
+        (plotting.approach_to_steady_state, [1, 2, 3, 4], "one matplotlib axes here, not 1"),
+        (plotting.pressure_volume, four.ravel(), "one matplotlib axes here, not 4 in a ndarray"),
+        (plotting.energy_sankey, four[0, 0].figure, "one matplotlib axes here, not <"),
+    ):
+        with pytest.raises(SalegError, match=said):
+            draw(base_run, ax)
+
+
 @pytest.mark.parametrize(("name", "count"), [("dynamics", 2), ("approach_to_steady_state", 4)])
 def test_figures_of_several_panels_take_an_array_of_axes(base_run, name, count):
     axes = new_figure().subplots(count)

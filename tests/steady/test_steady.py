@@ -2,12 +2,13 @@
 
 import math
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 import saleg
+from helpers import single_piston
 from saleg import Status, laws
 from saleg.laws import Motion
 from saleg.quantities import quantity
@@ -305,8 +306,36 @@ def test_a_bounce_chamber_is_stable_and_solved_as_it_is_waited_for(base):
     assert found.stable
     assert abs(found.multipliers[0]) < 0.9
     assert deviation(found.performance, run.performance) < 1e-6
-    with pytest.raises(saleg.SalegError, match="entropy"):
-        saleg.steady.continuation.branch(engine, "moving_mass", 2.6)
+
+
+@pytest.mark.parametrize(
+    ("path", "stop"),
+    [("moving_mass", 2.8), ("right.pressure", 3e5), ("right.bore", 0.07), ("bore", 0.066)],
+)
+def test_a_branch_keeps_the_charge_of_a_bounce_chamber(base, path, stop):
+    """Entropy is conserved, so every one has an orbit: that of the engine at each point counts."""
+    engine = single_piston(base, length=0.1, pressure=2.5e5)
+    follows_steady_states(engine, path, stop)
+
+
+def test_a_branch_keeps_all_that_a_bounce_chamber_conserves(base):
+    """Woschni's law takes the motored pressure along: a second conserved quantity."""
+    cylinder = replace(base.left, heat_transfer=laws.Woschni())
+    engine = single_piston(base, length=0.1, pressure=2.5e5, cylinder=cylinder)
+    follows_steady_states(engine, "right.pressure", 3e5)
+
+
+def follows_steady_states(engine, path, stop):
+    """Follow a branch and solve for its points one by one."""
+    branch = saleg.continuation.branch(engine, path, stop, step=abs(stop - engine.get(path)) / 3.0)
+    assert branch.ended == "arrived"
+    assert len(branch.points) > 3
+    for point in branch.points:
+        alone = saleg.steady_state(engine.replace(**{path: point.value}), rtol=1e-9)
+        assert deviation(point.steady.performance, alone.performance) < 1e-6
+        assert point.stability.kind == alone.stability.kind == "stable"
+        leading = [abs(found.multipliers[0]) for found in (point.stability, alone.stability)]
+        assert leading[0] == pytest.approx(leading[1], rel=1e-4)
 
 
 def test_the_orbit_of_a_steady_state_can_be_drawn(base):

@@ -225,3 +225,48 @@ def test_numbers_that_are_none_survive_the_folder(tmp_path):
     assert math.isinf(table.beat_period[0]) or table.beat_period[0] > 0.0
     assert np.isnan(table.power[1])
     assert table_text(table) == (tmp_path / "s" / "results.csv").read_text()
+
+
+BEGIN = """
+import random, sys, time
+from pathlib import Path
+import pandas as pd
+from saleg.errors import SweepError
+from saleg.sweep.store import Folder
+
+root, bore = Path(sys.argv[1]), float(sys.argv[2])
+points = pd.DataFrame({"bore": [bore] * 500})
+points.attrs["units"] = {"bore": "m"}
+print("ready", flush=True)
+for number in map(int, sys.stdin):
+    time.sleep(0.002 * random.random())
+    try:
+        with Folder(root / str(number)).opened({"count": 500}, points, "0"):
+            print("fine", flush=True)
+    except SweepError as error:
+        print(error, flush=True)
+"""
+
+
+@pytest.mark.parametrize("bores", [(0.06, 0.06), (0.06, 0.05)])
+def test_two_sweeps_that_begin_at_once_in_one_folder(tmp_path, bores):
+    """The same one goes on in both processes; of two others the second is told so."""
+    both = [
+        subprocess.Popen(
+            [sys.executable, "-c", BEGIN, str(tmp_path), str(bore)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for bore in bores
+    ]
+    assert [process.stdout.readline() for process in both] == ["ready\n"] * 2
+    for number in range(100):
+        for process in both:
+            process.stdin.write(f"{number}\n")
+            process.stdin.flush()
+        answers = {process.stdout.readline().strip() for process in both}
+        other = f"{tmp_path / str(number)} holds another sweep (other points); name another folder"
+        assert answers == ({"fine"} if bores[0] == bores[1] else {"fine", other})
+    for process in both:
+        process.communicate()

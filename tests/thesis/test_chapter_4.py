@@ -6,6 +6,7 @@ import pytest
 import saleg
 from printed import check, within
 from saleg.design import Design, MassModel, Operation, Parameters, Score, formulas
+from saleg.sweep import SweepError
 from saleg.thesis import beside as base_tables
 from saleg.thesis import chapter_4
 from saleg.thesis.tables import TABLE_2, columns
@@ -242,3 +243,8 @@ def test_room_beneath_the_pistons_is_confirmed_on_columns_that_took_no_part():
     assert others.mean() == pytest.approx(820.0, rel=0.02)
     as_printed = alternator_densities(10, crankcase=0.0)[others.index]
     assert others.std() / others.mean() < 0.03 < as_printed.std() / as_printed.mean()
+
+
+def test_a_sweep_the_chapter_has_not_is_refused_with_the_nearest():
+    with pytest.raises(SweepError, match=r"no sweep of Chapter 4 along 'bor'; did you mean 'bore'"):
+        chapter_4.sweep_along("bor")

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import itertools
-import sys
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from saleg.batch.workers import completed
 from saleg.errors import SalegError
+from saleg.simulation.progress import progress_bar
 from saleg.status import Status
 
 if TYPE_CHECKING:
@@ -98,7 +97,7 @@ def in_pieces(
     source = iter(items)
     chunks = iter(lambda: list(itertools.islice(source, chunk)), [])
     pieces = (piece for piece in enumerate(chunks) if piece[0] not in done)
-    with progress_bar(total) as bar:
+    with progress_bar(total, unit=" rows") as bar:
         ready = _compiled_first(work, pieces, kernel_of)
         for number, columns in completed(work, ready, executor, workers):
             if bar is not None:
@@ -145,12 +144,3 @@ def _joined(name: str, parts: Sequence[Columns]) -> np.ndarray:
         part.get(name, np.full(len(part["status"]), MISSING[kind], dtype=kind)) for part in parts
     ]
     return np.concatenate([np.zeros(0, kind), *filled])
-
-
-def progress_bar(total: int | None) -> Any:
-    """Progress bar for batches longer than a second of waiting, on a terminal only."""
-    if not sys.stderr.isatty():
-        return nullcontext()
-    from tqdm import tqdm
-
-    return tqdm(total=total, delay=1, leave=False, unit=" rows")

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import multiprocessing.process
 import os
+import pickle
+import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
@@ -15,6 +19,7 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import nullcontext
+from functools import lru_cache, partial
 from typing import TypeVar
 
 from saleg.quantities import is_whole
@@ -27,6 +32,8 @@ Result = TypeVar("Result")
 UNDER_WAY = 4
 #: What is raised in place of a result when workers, not the work, have failed.
 LOST = (BrokenExecutor, CancelledError, ConnectionError)
+#: What is raised where work cannot be packed, though the work itself may raise the latter too.
+UNSENT = (pickle.PicklingError, AttributeError, TypeError)
 
 
 class WorkersError(SettingsError):
@@ -76,6 +83,11 @@ def completed(
     ------
     (int, result)
 
+    Raises
+    ------
+    WorkersError
+        If the work cannot be sent to another process.
+
     Warns
     -----
     RuntimeWarning
@@ -104,26 +116,29 @@ def _sent_out(
 ) -> Iterator[tuple[int, Result]]:
     """Send pieces out, no more than `most` at a time; what gets lost is put into `lost`."""
     waiting: dict[Future[Result], tuple[int, Piece]] = {}
+    done_there = partial(_at_work, work)
     try:
         for piece in pieces:
             if lost:
                 lost.append(piece)
                 continue
             try:
-                waiting[pool.submit(work, piece[1])] = piece
+                waiting[pool.submit(done_there, piece[1])] = piece
             except LOST:
                 lost.append(piece)
             if len(waiting) >= most:
-                yield from _some(waiting, lost)
+                yield from _some(work, waiting, lost)
         while waiting:
-            yield from _some(waiting, lost)
+            yield from _some(work, waiting, lost)
     finally:
         for future in waiting:
             future.cancel()
 
 
 def _some(
-    waiting: dict[Future[Result], tuple[int, Piece]], lost: list[tuple[int, Piece]]
+    work: Callable[[Piece], Result],
+    waiting: dict[Future[Result], tuple[int, Piece]],
+    lost: list[tuple[int, Piece]],
 ) -> Iterator[tuple[int, Result]]:
     """Wait for at least one result and give all there are."""
     done, _ = wait(waiting, return_when=FIRST_COMPLETED)
@@ -133,5 +148,52 @@ def _some(
             result = future.result()
         except LOST:
             lost.append(piece)
+        except UNSENT:
+            _check_travels((work, piece[1]))
+            raise
         else:
             yield piece[0], result
+
+
+def _check_travels(parcel: object) -> None:
+    """Refuse work that cannot be sent to another process.
+
+    Raises
+    ------
+    WorkersError
+        Naming what cannot.
+    """
+    try:
+        pickle.dumps(parcel)
+    except UNSENT as error:
+        raise WorkersError(
+            f"the work cannot be sent to another process: {error}; define its classes and "
+            "functions at the top of a module, or let threads do it (executor=None)"
+        ) from error
+
+
+def _at_work(work: Callable[[Piece], Result], piece: Piece) -> Result:
+    """Do a piece, in whatever process."""
+    end_with_parent()
+    return work(piece)
+
+
+def end_with_parent() -> None:
+    """From now on end a process of a pool when the one that made it is gone.
+
+    One that was killed cannot say so, and a worker would wait for work without end.
+    """
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        _watch(parent)
+
+
+@lru_cache
+def _watch(parent: multiprocessing.process.BaseProcess) -> None:
+    """End this process after another, watched by a thread."""
+
+    def end() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=end, name="end with parent", daemon=True).start()

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from saleg.cli import control, fundamental, listing, run, steady, sweep
 from saleg.errors import SalegError
+from saleg.files.signals import ending_in_order
 from saleg.version import __version__
 
 #: Exit codes: all well; the run ended badly; the user's mistake; stopped from the keyboard.
@@ -33,22 +34,29 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     options = _parser().parse_args(arguments)
     try:
-        with _short_warnings():
+        with _short_warnings(), ending_in_order():
             well = options.command(options)
-            sys.stdout.flush()
+            if sys.stdout is not None:
+                sys.stdout.flush()
     except SalegError as error:
-        print(f"saleg: {error}", file=sys.stderr)
+        _complain(str(error))
         return MISTAKE
     except (OSError, UnicodeError) as error:
         if isinstance(error, BrokenPipeError):  # the reader, such as `head`, has seen enough
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return WELL
-        print(f"saleg: {ascii(str(error))[1:-1]}", file=sys.stderr)
+        _complain(ascii(str(error))[1:-1])
         return MISTAKE
     except KeyboardInterrupt:
-        print("saleg: interrupted", file=sys.stderr)
+        _complain("interrupted")
         return INTERRUPTED
     return WELL if well else BADLY
+
+
+def _complain(text: str) -> None:
+    """Say something beside the results; nothing where there is no console."""
+    if sys.stderr is not None:
+        print(f"saleg: {text}", file=sys.stderr)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -70,7 +78,5 @@ def _parser() -> argparse.ArgumentParser:
 def _short_warnings() -> Iterator[None]:
     """Show warnings as one line of text, without a place in the source."""
     with warnings.catch_warnings():
-        warnings.showwarning = lambda message, *_: print(
-            f"saleg: warning: {message}", file=sys.stderr
-        )
+        warnings.showwarning = lambda message, *_: _complain(f"warning: {message}")
         yield

@@ -11,6 +11,7 @@ import numpy as np
 from saleg.cli.run import CommandError, add_changes, changed, load
 from saleg.errors import nearest
 from saleg.files.atomic import write_text
+from saleg.files.reading import expanded
 from saleg.files.tables import labelled, write_table
 from saleg.machines import CATALOGUE
 
@@ -67,9 +68,9 @@ def add_to(commands: Any) -> None:
         dest="motor",
         help="the motor does not come back (misfire)",
     )
-    add("--demand", type=Path, metavar="FILE.csv", help="times [s] and powers [W], two columns")
-    add("--out", type=Path, metavar="DIR", help="write pictures and tables to a new folder")
-    add("--animate", type=Path, metavar="FILE", help="write the last cycle as .gif or .html")
+    add("--demand", type=expanded, metavar="FILE.csv", help="times [s] and powers [W], two columns")
+    add("--out", type=expanded, metavar="DIR", help="write pictures and tables to a new folder")
+    add("--animate", type=expanded, metavar="FILE", help="write the last cycle as .gif or .html")
     add("--force", action="store_true", help="replace DIR and FILE of an earlier experiment")
     parser.set_defaults(command=perform)
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from saleg.errors import SalegError
+from saleg.files.reading import expanded
 
 
 class FigureError(SalegError, ValueError):
@@ -20,7 +21,7 @@ def add_to(commands: Any) -> None:
     parser = commands.add_parser("fundamental", help="draw a figure of Chapter 2 (9 to 19)")
     add = parser.add_argument
     add("figure", type=int, choices=range(9, 20), metavar="FIGURE", help="its number, 9 to 19")
-    add("--out", type=Path, metavar="FILE", help="picture to write (figure_N.png)")
+    add("--out", type=expanded, metavar="FILE", help="picture to write (figure_N.png)")
     parser.set_defaults(command=draw)
 
 

@@ -11,6 +11,7 @@ from saleg.engine import Engine
 from saleg.engine.toml import SLOTS, laws_by_slot, read_toml
 from saleg.errors import SalegError, nearest
 from saleg.export.formats import check
+from saleg.files.reading import expanded
 from saleg.machines import CATALOGUE
 from saleg.simulation.integration import simulate
 from saleg.simulation.run import Run
@@ -32,7 +33,9 @@ def add_to(commands: Any) -> None:
     add("--step", type=float, metavar="S", help="fixed step [s] (5e-6)")
     add("--rtol", type=float, metavar="R", help="tolerance of the adaptive method (1e-8)")
     add("--history", type=int, metavar="N", help="keep every N-th step for the files in DIR (none)")
-    add("--out", type=Path, metavar="DIR", help="write plots, tables and engine to a new folder")
+    add(
+        "--out", type=expanded, metavar="DIR", help="write plots, tables and engine to a new folder"
+    )
     add("--format", metavar="F,...", help=f"formats in DIR, of {', '.join(FORMATS)} (csv)")
     add("--force", action="store_true", help="replace DIR if it holds an earlier run")
     parser.set_defaults(command=run)

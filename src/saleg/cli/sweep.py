@@ -7,7 +7,8 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from saleg.batch.workers import WorkersError
+from saleg.batch.workers import WorkersError, end_with_parent
+from saleg.files.reading import expanded
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -17,8 +18,8 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser's sub-commands."""
     parser = commands.add_parser("sweep", help="evaluate every point of a sweep file")
     add = parser.add_argument
-    add("file", type=Path, metavar="FILE.toml", help="what to sweep; see docs/sweeps.md")
-    add("--out", type=Path, metavar="DIR", help="folder of the results (FILE without .toml)")
+    add("file", type=expanded, metavar="FILE.toml", help="what to sweep; see docs/sweeps.md")
+    add("--out", type=expanded, metavar="DIR", help="folder of the results (FILE without .toml)")
     add("--workers", type=int, metavar="N", help="how many work at once (all processors)")
     add("--processes", action="store_true", help="work in processes, not threads")
     parser.set_defaults(command=sweep)
@@ -58,7 +59,7 @@ def _executor(options: argparse.Namespace) -> Any:
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
-    return ProcessPoolExecutor(options.workers, mp_context=get_context("spawn"))
+    return ProcessPoolExecutor(options.workers, get_context("spawn"), end_with_parent)
 
 
 def _complain(table: pd.DataFrame) -> None:

@@ -8,13 +8,13 @@ Three facts to begin with:
   along (helpers, constants) gets a prefix of its slot.
 - **This is the order:** what laws are shown (``laws/arguments``), what of the kernel needs no law,
   the slots filled with laws (in place of ``kernel/slots``), then the kernel: ``rhs``, ``step``,
-  ``events``, ... ``orbit``.
+  ``events``, ... ``integrate``.
 
 So a composed module reads, much shortened::
 
     import numba
     inline = numba.njit(
-    cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=True)
+    cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)
     # --- laws/arguments.py
     class Gas(NamedTuple):
     # --- kernel/layout.py
@@ -37,10 +37,14 @@ So a composed module reads, much shortened::
 ``P`` is the record of all numbers of all laws, so another number compiles nothing.
 
 Where to look: :mod:`~saleg.compiler.compiled_engine` is the door the other floors come in by;
-:mod:`~saleg.compiler.text` composes, of methods that :mod:`~saleg.compiler.source` makes ready and
-:mod:`~saleg.compiler.strength_reduction` makes cheap; :mod:`~saleg.compiler.module` executes the
+:mod:`~saleg.compiler.text` composes, of methods that :mod:`~saleg.compiler.imported_text` finds,
+:mod:`~saleg.compiler.slips` checks, :mod:`~saleg.compiler.source` makes ready and
+:mod:`~saleg.compiler.strength_reduction` makes cheap; :mod:`~saleg.compiler.diagnosis` names the
+one that fails; :mod:`~saleg.compiler.module` executes the
 text, kept in the :mod:`~saleg.compiler.cache`; :mod:`~saleg.compiler.kernel` calls it, through
 :mod:`~saleg.compiler.machine_code`; :mod:`~saleg.compiler.records` holds the numbers.
-:mod:`~saleg.compiler.controllers` are composed by themselves. :mod:`~saleg.compiler.plain` does
-without all of it. ``call_at`` and ``run_at`` are texts that composed modules take in.
+:mod:`~saleg.compiler.controllers` are composed by themselves, and so is the
+:mod:`~saleg.compiler.search` for steady states, which needs no law and is compiled once for all.
+:mod:`~saleg.compiler.plain` does without all of it. ``call_at`` and ``run_at`` are texts that
+composed modules take in.
 """

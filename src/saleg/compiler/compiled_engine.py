@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from saleg.compiler import plain, records
-from saleg.compiler.cache import usable_folder
 from saleg.compiler.controllers import control_of, nobody
+from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
-from saleg.compiler.source import NoSource, fingerprint, is_ours
-from saleg.compiler.text import INTEGRATOR, compose
+from saleg.compiler.source import fingerprint, is_ours
+from saleg.compiler.text import INTEGRATOR, compose, methods_text
 from saleg.kernel.tuples import Control
 from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
@@ -94,6 +95,32 @@ def kernel_for(
     return _kernel(_laws_in_order(engine, actuators), modules)
 
 
+def check_methods(laws: Iterable[Law]) -> None:
+    """Refuse laws of a user's that cannot be compiled, before any of them is called.
+
+    Where nothing is compiled, a law may do what Python does: print, for instance.
+
+    Raises
+    ------
+    LawError
+        Naming law, method and what in it cannot be compiled.
+    """
+    if plain.is_wanted():
+        return
+    for law in dict.fromkeys(map(type, laws)):
+        if not is_ours(law):
+            kind: Any = law
+            _check_methods(kind, fingerprint(law))
+
+
+@lru_cache(maxsize=256)
+def _check_methods(law: type[Law], state: tuple[object, ...]) -> None:
+    """The same of one class in a certain state."""
+    base: Any = next(base for base in law.__mro__ if "slot" in vars(base))
+    for method in base.compiled:
+        methods_text(law, method, "one", base, {})
+
+
 def _laws_in_order(engine: Engine, actuators: ActuatorLaw | None) -> list[Law]:
     """Laws of an engine in the order of their record: left, right, engine, actuators."""
     left, right = (IDLE_LAWS | chamber.laws for chamber in engine.chambers)
@@ -124,13 +151,14 @@ def _composed(
     state: tuple[object, ...],
 ) -> Kernel:
     """Kernel for a choice of law classes in a certain state."""
-    own = [law.__name__ for law in _own(classes)]
-    folder = usable_folder()
+    kinds = dict.fromkeys(zip(classes, lengths, strict=True))
+    own = [kind for kind in kinds if not is_ours(kind[0])]
     injected: dict[str, Any] = {}
     try:
-        text = compose(classes, modules, kept=folder is not None)
-    except NoSource:  # what is compiled from bytecode is not kept
-        folder = None
-        text = compose(classes, modules, kept=False, injected=injected)
+        text = compose(classes, modules)
+    except NoSource as error:
+        warn_if_edited(error)
+        text = compose(classes, modules, injected=injected)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
-    return Kernel(*load(text, "kernel", folder, injected), own)
+    # What is compiled from bytecode is not kept: the text does not say all of it.
+    return Kernel(*load(text, "kernel", injected, keeps=not injected), own)

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.compiler import plain
-from saleg.compiler.cache import usable_folder
+from saleg.compiler.diagnosis import diagnosed
+from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.module import load
 from saleg.compiler.records import lengths_of_all, names_of, numbers_of
-from saleg.compiler.source import NoSource, fingerprint, is_ours
+from saleg.compiler.source import fingerprint, is_ours
 from saleg.compiler.text import COMPILED_HEADER, methods_text, own_text
 from saleg.errors import LawError
 from saleg.kernel import layout
@@ -33,7 +34,7 @@ _pointer = numba.types.CPointer(numba.types.float64)
 
 
 @numba.cfunc(
-    numba.types.void(_pointer, _pointer, _pointer, _pointer), error_model="numpy", cache={cache}
+    numba.types.void(_pointer, _pointer, _pointer, _pointer), error_model="numpy", cache=ON_DISK
 )
 def entry(numbers_at, held_at, signals_at, commands_at):
 {body}
@@ -79,29 +80,35 @@ def _load(
     classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], state: tuple[object, ...]
 ) -> Any:
     """Compiled function of a choice of law classes in a certain state."""
-    names = ", ".join(law.__name__ for law in dict.fromkeys(classes) if not is_ours(law))
+    kinds = dict.fromkeys(zip(classes, lengths, strict=True))
     from numba.core.errors import NumbaError
 
-    folder = usable_folder()
+    injected: dict[str, Any] = {}
     try:
-        return load(_text(classes, lengths, folder is not None), "controller", folder).module.entry
-    except NoSource:
-        raise LawError(
-            f"the source of {names} cannot be had here: write it to a file or a notebook, or run "
-            "the controller with compiled=False"
-        ) from None
+        text = _text(classes, lengths)
+    except NoSource as error:
+        warn_if_edited(error)
+        text = _text(classes, lengths, injected)
+    try:
+        # What is compiled from bytecode is not kept: the text does not say all of it.
+        return load(text, "controller", injected, keeps=not injected).module.entry
     except NumbaError as error:
-        raise LawError(f"the laws {names} cannot be compiled: {error}") from error
+        own = [kind for kind in kinds if not is_ours(kind[0])]
+        raise LawError(diagnosed(own, error)) from error
 
 
-def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], kept: bool) -> str:
-    """Text of a controller's module, whose machine code is kept on disk or not."""
+def _text(
+    classes: tuple[type[Law], ...],
+    lengths: tuple[Lengths, ...],
+    injected: dict[str, Any] | None = None,
+) -> str:
+    """Text of a controller's module."""
     parts = ["import math", "from collections import namedtuple", "import numba"]
     parts += ["import numpy as np", COMPILED_HEADER, own_text("laws/arguments.py")]
     places, first = [], 0
     for (slot, base), law, long in zip(CONTROL_SLOTS.items(), classes, lengths, strict=True):
         (method,) = base.compiled
-        parts += methods_text(law, method, f"control_{slot}", base)
+        parts += methods_text(law, method, f"control_{slot}", base, injected)
         parts.append(
             f"@inline\ndef {slot}_{method}(P, held, signals):\n"
             f"    return control_{slot}_{method}(P.{slot}, held, signals)\n"
@@ -113,7 +120,7 @@ def _text(classes: tuple[type[Law], ...], lengths: tuple[Lengths, ...], kept: bo
         places.append(f"{slot}_numbers({', '.join(values)})")
     parts.append(f"all_numbers = namedtuple('all_numbers', {list(CONTROL_SLOTS)})")
     parts.append(own_text("kernel/decide.py"))
-    parts.append(ENTRY.format(cache=kept, body=_body(places, first)))
+    parts.append(ENTRY.format(body=_body(places, first)))
     return "\n".join(parts) + "\n"
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import types
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
-from pathlib import Path
 from typing import Any
 
 from saleg.compiler import machine_code
+from saleg.compiler.cache import Kept
+from saleg.compiler.diagnosis import Kind, diagnosed
 from saleg.errors import LawError
 from saleg.files.lock import locked
 
@@ -20,15 +21,15 @@ class Kernel:
     ----------
     module : module
         The composed module.
-    lock : Path or None
-        File that serialises compilation among processes.
-    laws : sequence of str
-        Names of the laws in it that are not the library's, for errors.
+    kept : Kept or None
+        Where its text and machine code are on disk; None if nothing is kept.
+    laws : sequence of Kind
+        Each class in it that is not the library's, for errors.
     """
 
-    def __init__(self, module: types.ModuleType, lock: Path | None, laws: Sequence[str] = ()):
+    def __init__(self, module: types.ModuleType, kept: Kept | None, laws: Sequence[Kind] = ()):
         self.module = module
-        self._lock = lock
+        self._kept = kept
         self._laws = laws
         # An entry point is always called with the same types: what they are is found out once.
         self._entries: dict[str, Callable[..., Any]] = {}
@@ -59,7 +60,7 @@ class Kernel:
         """An entry point, compiled for arguments of these types, and the types."""
         function, kinds = self.function(name), machine_code.types_of(arguments)
         if not machine_code.is_compiled(function, kinds):
-            with locked(self._lock) if self._lock else nullcontext():
+            with locked(self._kept.lock) if self._kept else nullcontext():
                 self._compile(function, kinds)
         return function, kinds
 
@@ -67,22 +68,13 @@ class Kernel:
         """Compile an entry point or load it; what is damaged on disk is compiled afresh."""
         from numba.core.errors import NumbaError
 
+        def compile_now() -> None:
+            machine_code.compile_for(function, kinds)
+
         try:
-            machine_code.compile_for(function, kinds)
+            if self._kept is None:
+                compile_now()
+            else:
+                self._kept.mended(compile_now)
         except NumbaError as error:
-            raise LawError(
-                f"the laws {', '.join(self._laws)} cannot be compiled: {_reason(error)}"
-            ) from error
-        except Exception:
-            if self._lock is None:
-                raise
-            for damaged in self._lock.parent.glob(f"__pycache__/{self._lock.stem}*"):
-                damaged.unlink(missing_ok=True)
-            machine_code.compile_for(function, kinds)
-
-
-def _reason(error: Exception) -> str:
-    """What numba says of the cause, without the chain of what it was doing."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    telling = [line for line in lines if not line.startswith(("Failed in", "During", "File", "<"))]
-    return " ".join(telling[:2]) if telling else str(error)
+            raise LawError(diagnosed(self._laws, error)) from error

@@ -6,14 +6,18 @@ has changed:
 - compiling before the first call, so that one process at a time does; else the call compiles;
 - an entry point called without finding out the types of its arguments, which spares a twentieth of
   a millisecond; else numba's dispatcher is called;
-- a function's address, so that the search for steady states does not compile the integrator a
-  second time; else it does (:func:`has_addresses`, asked as the text is composed).
+- a function's address, so that the search for steady states is compiled once for all laws; else it
+  is compiled into every kernel (:mod:`~saleg.compiler.search`);
+- the folder numba keeps machine code in, to be looked at before anything is loaded; else none is
+  kept.
 """
 
 from __future__ import annotations
 
 import pkgutil
 from collections.abc import Callable, Sequence
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 #: What a call by address takes: here for the address, in ``run_at.py`` for the call.
@@ -42,6 +46,24 @@ def is_compiled(function: Any, types: Types) -> bool:
     return _result(function, types) is not None
 
 
+def folder_of(path: Path) -> Path:
+    """Folder where the machine code of a file is kept, made if need be.
+
+    Raises
+    ------
+    PermissionError
+        If there is no place for it.
+    """
+    import numba
+
+    names: dict[str, Any] = {}
+    exec(compile("def probe(): pass", str(path), "exec"), names)
+    try:
+        return Path(str(numba.njit(cache=True)(names["probe"]).stats.cache_path))
+    except (RuntimeError, AttributeError) as error:
+        raise PermissionError(str(error)) from None
+
+
 def compile_for(function: Any, types: Types) -> None:
     """Compile a function for arguments of some types, or load its machine code."""
     compile_now = getattr(function, "compile", None)
@@ -57,7 +79,7 @@ def entry_point(function: Any, types: Types) -> Callable[..., Any]:
 
 def has_addresses() -> bool:
     """Whether compiled functions can be called by their addresses with this numba."""
-    return all(map(_exists, ADDRESS_NEEDS))
+    return _all_exist(ADDRESS_NEEDS)
 
 
 def address(function: Any, types: Types) -> int:
@@ -71,6 +93,11 @@ def address(function: Any, types: Types) -> int:
 def _result(function: Any, types: Types) -> Any:
     """What numba knows of a function compiled for some types; None if nothing."""
     return getattr(function, "overloads", {}).get(types)
+
+
+@lru_cache(maxsize=8)
+def _all_exist(names: tuple[str, ...]) -> bool:
+    return all(map(_exists, names))
 
 
 def _exists(name: str) -> bool:

@@ -13,6 +13,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg.compiler import machine_code
+from saleg.compiler.cache import Kept, usable_folder, warn_of_no_cache
+from saleg.errors import LawError
 from saleg.files.atomic import write_text
 from saleg.files.lock import locked
 
@@ -25,37 +28,57 @@ class Loaded(NamedTuple):
     Attributes
     ----------
     module : module
-    lock : Path or None
-        File that serialises compilation among processes; None if nothing is kept.
+    kept : Kept or None
+        Where its text and machine code are; None if nothing is kept.
     """
 
     module: types.ModuleType
-    lock: Path | None
+    kept: Kept | None
 
 
-def load(text: str, kind: str, folder: Path | None, names: dict[str, Any] | None = None) -> Loaded:
+def load(
+    text: str, kind: str, names: dict[str, Any] | None = None, *, keeps: bool = True
+) -> Loaded:
     """Execute the text of a module; a second process finds its machine code by the text.
 
     Parameters
     ----------
     text : str
+        Finds in ``ON_DISK`` whether its machine code is to be kept.
     kind : str
         What it is of, for its name.
-    folder : Path or None
-        Where text and machine code are kept, under a hash of the text; None keeps nothing.
     names : dict, optional
         What the text finds defined.
+    keeps : bool
+        Whether text and machine code are kept in the cache folder, under a hash of the text.
+
+    Warns
+    -----
+    RuntimeWarning
+        If they cannot be kept, or what is kept cannot be trusted; all goes on in memory.
     """
-    if folder is None:
-        number = next(_numbers)
-        stem, filename = f"saleg_{kind}_{number}", f"<saleg {kind} {number}>"
-        return Loaded(_execute(text, stem, filename, names), None)
+    folder = usable_folder() if keeps else None
+    if folder is not None:
+        try:
+            return _load_kept(text, kind, folder, names or {})
+        except OSError as error:
+            warn_of_no_cache(f"{folder}: {error.strerror or error}")
+    number = next(_numbers)
+    stem, filename = f"saleg_{kind}_{number}", f"<saleg {kind} {number}>"
+    return Loaded(_execute(text, stem, filename, {**(names or {}), "ON_DISK": False}), None)
+
+
+def _load_kept(text: str, kind: str, folder: Path, names: dict[str, Any]) -> Loaded:
+    """Execute a module from the cache folder; what is damaged there is made afresh."""
     path = _free(folder / f"saleg_{kind}_{digest(text)}.py")
-    lock = path.with_suffix(".lock")
-    with locked(lock):
+    with locked(path.with_suffix(".lock")):
         if not path.is_file() or path.read_bytes() != text.encode():
             write_text(path, text, mode=0o600)
-        return Loaded(_execute(text, path.stem, str(path), names), lock)
+        kept = Kept(path, machine_code.folder_of(path))
+        kept.check()
+        names = {**names, "ON_DISK": True}
+        module = kept.mended(lambda: _execute(text, path.stem, str(path), names))
+        return Loaded(module, kept)
 
 
 def _free(path: Path) -> Path:
@@ -92,17 +115,23 @@ def without_source(
 
     seen = {} if seen is None else seen
     if id(function) in seen:
+        if seen[id(function)] is None:
+            raise LawError(f"{function.__qualname__} calls itself; write it as a loop")
         return seen[id(function)]
+    seen[id(function)] = None  # under way
+
+    def compiled(value: Any) -> Any:
+        is_function = isinstance(value, types.FunctionType)
+        return without_source(value, attributes, seen) if is_function else value
+
     names = {
-        name: without_source(value, attributes, seen)
-        if isinstance(value, types.FunctionType)
-        else value
-        for name, value in inspect.getclosurevars(function).globals.items()
+        name: compiled(value) for name, value in inspect.getclosurevars(function).globals.items()
     }
+    cells = tuple(
+        types.CellType(compiled(cell.cell_contents)) for cell in function.__closure__ or ()
+    )
     code = function.__code__
     code = code.replace(co_names=tuple(attributes.get(name, name) for name in code.co_names))
-    copy = types.FunctionType(
-        code, names, function.__name__, function.__defaults__, function.__closure__
-    )
+    copy = types.FunctionType(code, names, function.__name__, function.__defaults__, cells)
     seen[id(function)] = numba.njit(forceinline=True, error_model="numpy", nogil=True)(copy)
     return seen[id(function)]

@@ -1,12 +1,16 @@
 """The kernel without compilation, for debuggers and coverage: ``NUMBA_DISABLE_JIT=1``.
 
+So it runs too where the package is installed without its source.
+
 Nothing is composed. The modules of :mod:`saleg.kernel` run as they stand in their files, and a law
 is the method its author wrote, so that a breakpoint in either is met. Some thousand times slower.
 """
 
 from __future__ import annotations
 
+import pkgutil
 import types
+import warnings
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 from importlib import import_module
@@ -26,11 +30,26 @@ from saleg.laws.base import CHAMBER_SLOTS
 
 
 def is_wanted() -> bool:
-    """Whether numba is told to compile nothing."""
+    """Whether nothing can be compiled, or numba is told to compile nothing."""
     import numba
 
     config: Any = numba.config
-    return bool(config.DISABLE_JIT)
+    return bool(config.DISABLE_JIT) or not _has_source()
+
+
+@lru_cache
+def _has_source() -> bool:
+    """Whether the text of the kernel is there; said once if it is not."""
+    try:
+        return bool(pkgutil.get_data("saleg", "kernel/rhs.py"))
+    except OSError:
+        warnings.warn(
+            "saleg is installed without its source (.py), so nothing is compiled and all takes "
+            "some thousand times longer",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+        return False
 
 
 class PlainKernel(Kernel):

@@ -47,7 +47,7 @@ def lengths_of_all(laws: Sequence[Law]) -> tuple[Lengths, ...]:
 def record_of(law: Law) -> np.dtype:
     """Record that holds the numbers of a law."""
     kind: Any = type(law)
-    return _record(kind, lengths_of(law))
+    return record_of_kind(kind, lengths_of(law))
 
 
 def numbers_of(laws: Sequence[Law]) -> list[float]:
@@ -80,7 +80,7 @@ def parameters(laws: Sequence[Law]) -> np.ndarray:
 @lru_cache(maxsize=256)
 def _record_of_all(classes: tuple[Any, ...], lengths: tuple[Lengths, ...]) -> np.dtype:
     """Record of an engine: left and right hold a record for each slot, the others follow."""
-    records = [_record(law, length) for law, length in zip(classes, lengths, strict=True)]
+    records = [record_of_kind(law, length) for law, length in zip(classes, lengths, strict=True)]
     n = len(CHAMBER_SLOTS)
     sides = [list(zip(CHAMBER_SLOTS, records[i : i + n], strict=True)) for i in (0, n)]
     rest = list(zip(OTHER_SLOTS, records[2 * n :], strict=True))
@@ -88,7 +88,8 @@ def _record_of_all(classes: tuple[Any, ...], lengths: tuple[Lengths, ...]) -> np
 
 
 @lru_cache(maxsize=256)
-def _record(law: Any, lengths: Lengths) -> np.dtype:
+def record_of_kind(law: Any, lengths: Lengths) -> np.dtype:
+    """Record that holds the numbers of a law of some class."""
     long = dict(lengths)
     items = [
         (name, np.float64, (long[name],)) if name in long else (name, np.float64)

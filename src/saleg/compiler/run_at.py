@@ -1,7 +1,9 @@
-"""Call of the integrator by its address, as composed modules have it.
+"""Call of the integrator by its address, as the composed search for fixed points has it.
 
-Only machine_code.py and this file know numba's inside. Where numba has changed, the composed module
-has kernel/run_plainly.py in its place, and the integrator is compiled into its caller.
+Only machine_code.py and this file know numba's inside. Where numba has changed,
+kernel/run_plainly.py stands in its place, and the integrator is compiled into its caller. The
+integrator's own arguments hold a record of laws where the caller's hold numbers: to the machine
+both are an array's address.
 """
 
 from llvmlite import ir

@@ -9,30 +9,29 @@ from __future__ import annotations
 
 import ast
 import builtins
+import copy
 import dataclasses
 import inspect
 import math
 import numbers
-import textwrap
 import types
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from saleg.compiler.imported_text import found_text
+from saleg.compiler.slips import check_own, check_returns, check_shown, check_statements, shown
 from saleg.compiler.strength_reduction import eased
 from saleg.errors import LawError
 from saleg.laws import arguments
 from saleg.laws.base import Law
+from saleg.laws.contract import plain_function
 from saleg.laws.earlier_names import ATTRIBUTES
 
 ALLOWED_BUILTINS = frozenset(
     {"abs", "bool", "float", "int", "len", "max", "min", "pow", "range", "round"}
 )
-
-
-class NoSource(Exception):
-    """The text of a method cannot be had (it was typed into a plain interpreter)."""
 
 
 def is_ours(law: type[Law]) -> bool:
@@ -41,25 +40,31 @@ def is_ours(law: type[Law]) -> bool:
 
 
 def fingerprint(law: type[Law]) -> tuple[object, ...]:
-    """All that the text of a law's methods depends on: code, helpers, constants."""
+    """All that the text of a law's methods depends on: code, defaults, helpers, constants."""
     seen: dict[types.FunctionType, None] = {}
     found: list[object] = []
     waiting: list[Any] = [getattr(law, name) for name in law.compiled]
     while waiting:
-        function = waiting.pop()
-        if not isinstance(function, types.FunctionType) or function in seen:
-            continue
-        seen[function] = None
-        found.append(function.__code__)
-        cells = [cell.cell_contents for cell in function.__closure__ or ()]
-        names = [name for name in function.__code__.co_names if name in function.__globals__]
-        for value in [*cells, *(function.__globals__[name] for name in names)]:
-            value = getattr(value, "py_func", value)
-            if isinstance(value, types.FunctionType):
-                waiting.append(value)
-            else:
-                found.append(_literal(value) or id(value))
+        value = waiting.pop()
+        value = getattr(value, "py_func", value)
+        if not isinstance(value, types.FunctionType):
+            found.append(_literal(value) or id(value))
+        elif value not in seen:
+            seen[value] = None
+            found.append(value.__code__)
+            waiting += value.__defaults__ or ()
+            waiting += [cell.cell_contents for cell in value.__closure__ or ()]
+            waiting += _globals_named(value.__code__, value.__globals__)
     return tuple(found)
+
+
+def _globals_named(code: types.CodeType, names: dict[str, Any]) -> list[Any]:
+    """Values of globals that some code, or code inside it, names."""
+    found = [names[name] for name in code.co_names if name in names]
+    for item in code.co_consts:
+        if isinstance(item, types.CodeType):
+            found += _globals_named(item, names)
+    return found
 
 
 class Borrowed:
@@ -71,11 +76,14 @@ class Borrowed:
         Put before every carried name.
     owner : str
         How errors call the method, for instance ``"MyLaw.force"``.
+    wanted : function, optional
+        The method of the base class, which says what it is shown and must return.
     """
 
-    def __init__(self, prefix: str, owner: str):
+    def __init__(self, prefix: str, owner: str, wanted: Callable[..., Any] | None = None):
         self.prefix = prefix
         self.owner = owner
+        self.wanted = wanted
         self.definitions: list[str] = []
         self._carried: dict[object, str] = {}
         self._numbers: dict[str, float] = {}
@@ -92,16 +100,22 @@ class Borrowed:
 
     def _method(self, law: type[Law], method: Callable[..., Any], name: str) -> ast.FunctionDef:
         """A method checked and prepared."""
-        tree = _parse(method)
-        _check_self(law, tree, self.owner)
+        function = plain_function(method, self.owner)
+        tree = _parsed(function, self.owner)
+        check_own(law, tree, self.owner)
+        if self.wanted is None:
+            check_returns(tree, self.owner, "")
+        else:
+            check_shown(tree, shown(self.wanted), self.owner)
+            check_returns(tree, self.owner, str(self.wanted.__annotations__.get("return", "")))
         self._attributes = earlier_attributes(law)
-        return self._prepared(tree, method, name, own=tree.args.args[0].arg)
+        return self._prepared(tree, function, name, own=tree.args.args[0].arg)
 
     def _emit(self, tree: ast.FunctionDef) -> None:
         self.definitions.append("@inline\n" + ast.unparse(tree))
 
     def _prepared(
-        self, tree: ast.FunctionDef, function: Callable[..., Any], name: str, own: str | None = None
+        self, tree: ast.FunctionDef, function: types.FunctionType, name: str, own: str | None = None
     ) -> ast.FunctionDef:
         """A function under another name, with all it uses carried along.
 
@@ -115,6 +129,12 @@ class Borrowed:
         tree.name = name
         tree.returns = None
         tree.decorator_list = []
+        tree.args.defaults = [
+            self._resolve(argument.arg, value)  # as they were bound, whatever they are called now
+            for argument, value in zip(
+                tree.args.args[::-1], (function.__defaults__ or ())[::-1], strict=False
+            )
+        ][::-1]
         for argument in (*tree.args.posonlyargs, *tree.args.args, *tree.args.kwonlyargs):
             argument.annotation = None
         plain: ast.FunctionDef = _Unannotated().visit(tree)
@@ -129,7 +149,10 @@ class Borrowed:
         if isinstance(value, types.FunctionType):
             if value not in self._carried:
                 self._carried[value] = self._new_name(value.__name__)
-                self._emit(self._prepared(_parse(value), value, self._carried[value]))
+                owner = f"{self.owner} calls '{name}', which"
+                tree = _parsed(value, owner)
+                check_returns(tree, owner)
+                self._emit(self._prepared(tree, value, self._carried[value]))
             return ast.Name(self._carried[value], ast.Load())
         literal = _literal(value)
         if literal is None:
@@ -185,32 +208,15 @@ class _Renamer(ast.NodeTransformer):
         return node
 
 
-def _parse(function: Callable[..., Any]) -> ast.FunctionDef:
-    try:
-        text = textwrap.dedent(inspect.getsource(function))
-    except (OSError, TypeError) as error:
-        raise NoSource(str(error)) from None
-    tree = ast.parse(text).body[0]
-    if not isinstance(tree, ast.FunctionDef):
-        raise LawError(f"{function.__qualname__} must be written with 'def'")
-    if tree.args.posonlyargs or tree.args.kwonlyargs or tree.args.vararg or tree.args.kwarg:
-        raise LawError(f"{function.__qualname__} must take plain arguments only")
-    return tree
-
-
-def _check_self(law: type[Law], tree: ast.FunctionDef, owner: str) -> None:
-    """A law's record holds its numbers only: refuse anything else asked of ``self``."""
-    fields = {item.name for item in dataclasses.fields(law)}  # type: ignore[arg-type]
-    own = tree.args.args[0].arg
-    for node in ast.walk(tree):
-        if not (isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)):
-            continue
-        if node.value.id == own and node.attr not in fields:
-            what = "calls its method" if callable(getattr(law, node.attr, None)) else "uses"
-            raise LawError(
-                f"{owner} {what} '{own}.{node.attr}'; compiled, a law has only its own numbers "
-                f"({', '.join(sorted(fields)) or 'none'}): use a module-level function"
-            )
+def _parsed(function: types.FunctionType, owner: str) -> ast.FunctionDef:
+    """A function's tree, checked; `owner` is how errors call it."""
+    found = found_text(function).tree
+    if found is None:
+        raise LawError(f"{owner} must be written with 'def'")
+    if found.args.posonlyargs or found.args.kwonlyargs or found.args.vararg or found.args.kwarg:
+        raise LawError(f"{owner} must take plain arguments only")
+    check_statements(found, owner)
+    return copy.deepcopy(found)
 
 
 def earlier_attributes(law: type[Law]) -> dict[str, str]:
@@ -223,10 +229,12 @@ def _globals_used(
     tree: ast.FunctionDef, function: Callable[..., Any], owner: str
 ) -> dict[str, Any]:
     """Names a function takes from outside itself, with their values."""
-    local = set(function.__code__.co_varnames) | set(function.__code__.co_cellvars)
-    for node in ast.walk(tree):  # a comprehension's own variables
-        if isinstance(node, ast.comprehension):
-            local |= {item.id for item in ast.walk(node.target) if isinstance(item, ast.Name)}
+    local = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
+    for node in ast.walk(tree):  # those of a comprehension or a function inside among them
+        if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+            local.add(node.id)
+        elif isinstance(node, ast.FunctionDef) and node is not tree:
+            local.add(node.name)
     closure = inspect.getclosurevars(function)
     used = {}
     for node in _body_nodes(tree):
@@ -245,13 +253,11 @@ def _globals_used(
 
 
 def _body_nodes(tree: ast.FunctionDef) -> list[ast.AST]:
-    """All nodes of a function but its annotations and decorators."""
-    waiting: list[ast.AST | None] = [*tree.body, *tree.args.defaults, *tree.args.kw_defaults]
+    """All nodes of a function but its annotations, decorators and defaults."""
+    waiting: list[ast.AST] = list(tree.body)
     found = []
     while waiting:
         node = waiting.pop()
-        if node is None:
-            continue
         found.append(node)
         children = list(ast.iter_child_nodes(node))
         if isinstance(node, ast.AnnAssign):

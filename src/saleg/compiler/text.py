@@ -8,20 +8,20 @@ from __future__ import annotations
 
 import ast
 import inspect
+import pkgutil
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
-from saleg.compiler import machine_code
+from saleg.compiler.imported_text import NoSource
 from saleg.compiler.module import without_source
 from saleg.compiler.records import OTHER_SLOTS
-from saleg.compiler.source import Borrowed, NoSource, earlier_attributes
+from saleg.compiler.source import Borrowed, earlier_attributes
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.errors import LawError
 from saleg.laws import Law
 from saleg.laws.base import CHAMBER_SLOTS
+from saleg.laws.contract import plain_function
 
-PACKAGE = Path(__file__).resolve().parent.parent
 #: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
 BEFORE_SLOTS = (
     "laws/arguments.py",
@@ -29,10 +29,9 @@ BEFORE_SLOTS = (
     "kernel/tuples.py",
     "kernel/logarithms.py",
     "kernel/layout.py",
+    "kernel/state.py",
     "compiler/call_at.py",
 )
-#: How the search for steady states calls the integrator, and how if numba has no addresses.
-RUN_AT, RUN_PLAINLY = "compiler/run_at.py", "kernel/run_plainly.py"
 #: Modules of the kernel that make up the integrator.
 INTEGRATOR = (
     "rhs",
@@ -43,8 +42,18 @@ INTEGRATOR = (
     "switch",
     "observe",
     "integrate",
-    "orbit",
 )
+#: The return map and the search for its fixed points: they use no law, and call the integrator by
+#: its address. Where numba has no addresses it is compiled into them.
+SEARCH = (
+    "laws/arguments.py",
+    "kernel/tuples.py",
+    "kernel/layout.py",
+    "kernel/state.py",
+    "kernel/orbit.py",
+    "compiler/run_at.py",
+)
+INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "run_plainly")
 
 #: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. Only entry points get
 #: wrappers for Python, which halves the time to compile. Nothing in a kernel allocates, so nothing
@@ -61,15 +70,14 @@ compiled = numba.njit(
     error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
 )
 """
-CACHED_ON_DISK = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=True)\n'
-CACHED_IN_MEMORY = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True)\n'
+#: What a module is loaded with says whether it is kept.
+CACHED = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)\n'
 
 
 def compose(
     classes: Sequence[type[Law]],
     modules: Sequence[str] = INTEGRATOR,
     *,
-    kept: bool = True,
     injected: dict[str, Any] | None = None,
 ) -> str:
     """Text of a composed module.
@@ -80,8 +88,6 @@ def compose(
         Classes of the laws, in the order of the record: left, right, engine, actuators.
     modules : sequence of str
         Modules of the kernel.
-    kept : bool
-        Whether machine code of entry points is kept on disk.
     injected : dict, optional
         Takes the methods whose source cannot be had, by the names the text calls them.
 
@@ -94,18 +100,30 @@ def compose(
     """
     n = len(CHAMBER_SLOTS)
     left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
-    parts = ["import math", "import numba", "import numpy as np", ""]
-    parts += [f"from math import exp as {EXPONENTIAL}"]
-    parts += [COMPILED_HEADER + (CACHED_ON_DISK if kept else CACHED_IN_MEMORY)]
-    parts += [own_text(name) for name in BEFORE_SLOTS]
+    parts = [*_header(), *map(own_text, BEFORE_SLOTS)]
     eases = "rhs" in modules
     for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
         parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
     for (name, base), law in zip(OTHER_SLOTS.items(), rest, strict=True):
         parts += _engine_slot(name, base, law, injected)
     parts += [own_text(f"kernel/{name}.py") for name in modules]
-    if "orbit" in modules:
-        parts.append(own_text(RUN_AT if machine_code.has_addresses() else RUN_PLAINLY))
+    return _joined(parts)
+
+
+def compose_search() -> str:
+    """Text of the return map and the search for its fixed points, which use no law."""
+    return _joined([*_header(), *map(own_text, SEARCH)])
+
+
+def _header() -> list[str]:
+    """What every composed module begins with."""
+    parts = ["import math", "import numba", "import numpy as np", ""]
+    parts += [f"from math import exp as {EXPONENTIAL}"]
+    return [*parts, COMPILED_HEADER + CACHED]
+
+
+def _joined(parts: Sequence[str]) -> str:
+    """Text of a module of these parts."""
     text = "\n".join(parts) + "\n"
     _check_names(text)
     return text
@@ -181,13 +199,12 @@ def methods_text(
     eases: bool = False,
 ) -> list[str]:
     """Definitions needed for one method of a law, as a function ``{prefix}_{method}``."""
-    function = getattr(law, method)
     owner = f"{law.__name__}.{method}"
-    given = list(inspect.signature(function).parameters)[1:]
+    function = plain_function(getattr(law, method), owner)
     wanted = _arguments(base, method)
-    if len(given) != len(wanted):
+    if function.__code__.co_argcount != len(wanted) + 1:
         raise LawError(f"{owner} must take ({', '.join(['self', *wanted])})")
-    borrowed = Borrowed(f"{prefix}_{method}__", owner)
+    borrowed = Borrowed(f"{prefix}_{method}__", owner, getattr(base, method))
     add = borrowed.add_eased_method if eases else borrowed.add_method
     try:
         add(law, function, f"{prefix}_{method}")
@@ -207,7 +224,7 @@ def _arguments(base: type[Law], method: str) -> list[str]:
 
 def own_text(name: str) -> str:
     """Text of one of our modules without its docstring and its imports from this package."""
-    text = (PACKAGE / name).read_text(encoding="utf-8")
+    text = (pkgutil.get_data("saleg", name) or b"").decode("utf-8").replace("\r\n", "\n")
     lines = text.splitlines()
     drop: set[int] = set()
     for index, node in enumerate(ast.parse(text).body):

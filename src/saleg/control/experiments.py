@@ -21,6 +21,7 @@ from saleg.laws.control.load import ScaledLoad
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold
 from saleg.quantities import is_number
+from saleg.simulation.indicators import stroke_compression_ratios
 from saleg.simulation.run import Run
 from saleg.simulation.settings import SettingsError
 
@@ -84,19 +85,15 @@ def motored(
         executor=executor,
         rtol=1e-6,
     )
-    maximum = engine.maximum_stroke
-    ports = min(
-        getattr(side, "port_closing", math.inf) - side.half_stroke for side in engine.chambers
-    )
     frame = pd.DataFrame(
         {
             "motor_frequency": pairs[0],
             "motor_amplitude": pairs[1],
             "stroke": table.stroke,
-            "relative_stroke": table.stroke / maximum,
+            "relative_stroke": table.stroke / engine.maximum_stroke,
             "compression_ratio": table.compression_ratio,
-            "opens_ports": 0.5 * table.stroke > ports,
-            "opened_ports": table.farthest > ports,
+            "opens_ports": table.opens_ports > 0.0,
+            "opened_ports": table.opened_ports > 0.0,
             "status": table.status,
             "message": table.message,
         }
@@ -288,9 +285,7 @@ def recovery_time(run: Run, at: float) -> float:
         does not get there.
     """
     t = run.strokes["t"]
-    length = np.abs(run.strokes["x_end"] - run.strokes["x_start"])
-    maximum = run.engine.maximum_stroke
-    ratio = (maximum + length) / (maximum - length)
+    ratio = stroke_compression_ratios(run.engine, run.strokes)
     before = np.flatnonzero(t <= at)
     if not len(before) or not t[-1] > at:
         return math.nan

@@ -22,6 +22,7 @@ from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import ActuatorLaw
 from saleg.quantities import as_float
+from saleg.simulation.indicators import beyond_ports
 from saleg.simulation.run import Run
 from saleg.simulation.settings import SettingsError
 
@@ -40,6 +41,8 @@ CONTROL_UNITS = {
     "strokes": "-",
     "motored_share": "-",
     "farthest": "m",
+    "opened_ports": "-",
+    "opens_ports": "-",
 }
 
 
@@ -265,8 +268,10 @@ def simulate_many(
     DataFrame
         One row per pair, in order: status, message, figures of the last cycle, ``fired_at``, when
         the motor was first left [s], ``motor_returns``, how often it came back, ``strokes``, how
-        many there were, ``motored_share``, the share of them that was motored, and ``farthest``,
-        the greatest distance of a dead centre from the midpoint [m]. Units in ``.attrs``.
+        many there were, ``motored_share``, the share of them that was motored, ``farthest``,
+        the greatest distance of a dead centre from the midpoint [m], ``opened_ports`` and
+        ``opens_ports``, whether any stroke and whether the last two went beyond the ports of a
+        cylinder (1 or 0). Units in ``.attrs``.
     """
     if settings.get("keep_cycles") is not None:
         raise SettingsError("keep_cycles: the table looks back to the start; leave it out")
@@ -282,6 +287,7 @@ def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
 def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any) -> Row:
     """Row of a run under a controller."""
     run = _compiled(pair[0], pair[1], duration, settings)
+    beyond = beyond_ports(run.engine, run.strokes)
     return {
         **run_row(run),
         "fired_at": fired_at(run),
@@ -289,6 +295,8 @@ def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any
         "strokes": float(len(run.strokes)),
         "motored_share": motored_share(run),
         "farthest": float(np.abs(run.strokes["x_end"]).max(initial=0.0)),
+        "opened_ports": float(beyond.any()),
+        "opens_ports": float(beyond[-2:].any()),
     }
 
 

@@ -14,6 +14,7 @@ from saleg.kernel import layout
 from saleg.kernel.control import write_signals
 from saleg.laws.arguments import Signals, Stroke
 from saleg.quantities import Quantities, problems, quantity
+from saleg.simulation.indicators import compression_ratio
 from saleg.simulation.initial_state import State
 
 
@@ -94,15 +95,15 @@ class Measurement:
         power = _rounded(true.power + known.power_noise * noise_of_power, known.power_resolution)
         x_before, t_before = self._last or (x - true.stroke, t)
         self._last = x, t
-        stroke = min(abs(x - x_before), (1.0 - 1e-9) * true.maximum_stroke)
-        ratio = (true.maximum_stroke + stroke) / (true.maximum_stroke - stroke)
+        stroke = abs(x - x_before)
+        ends = x, x + true.direction * stroke
         frequency = true.frequency
         if known.time_resolution > 0.0 and t > t_before:
             frequency = 0.5 / (t - t_before)
         seen = true._replace(
             x=x,
             stroke=stroke,
-            compression_ratio=ratio,
+            compression_ratio=float(compression_ratio(self._engine, min(ends), max(ends))),
             frequency=frequency,
             power=power,
             regulated_weight=self._regulated(true, stroke, frequency),
@@ -139,5 +140,5 @@ def _rounded(value: float, step: float) -> float:
 def measured(state: State) -> Signals:
     """Signals at a state."""
     values = np.zeros(1, layout.SIGNALS_RECORD).view(np.recarray)
-    write_signals(state.records[0], values[0])
+    write_signals(*state.records, values[0])
     return Signals(*values[0].tolist())

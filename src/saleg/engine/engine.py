@@ -115,8 +115,18 @@ class Engine:
 
     @property
     def maximum_stroke(self) -> float:
-        """Greatest geometrically possible stroke [m]."""
-        return self.left.half_stroke + self.right.half_stroke
+        """Greatest geometrically possible stroke [m]: the clearances at the midpoint together.
+
+        Of a bounce chamber opposite a cylinder counts no more than the cylinder's own clearance:
+        what it has beyond that is room for its gas, not for the piston.
+        """
+        left, right = self.left.half_stroke, self.right.half_stroke
+        burns = [isinstance(chamber, CombustionChamber) for chamber in self.chambers]
+        if burns == [True, False]:
+            return left + min(left, right)
+        if burns == [False, True]:
+            return min(left, right) + right
+        return left + right
 
     def get(self, path: str) -> Any:
         """Value at a dotted path, such as ``"intake.pressure"`` (SI).

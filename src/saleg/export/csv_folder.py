@@ -13,7 +13,7 @@ from saleg.errors import RunFileError
 from saleg.export.description import Column, Description, Stored
 from saleg.export.units import CODES, LAYOUTS
 from saleg.files.atomic import write_text
-from saleg.files.reading import is_folder
+from saleg.files.reading import decoded, is_folder
 from saleg.files.tables import DamagedTable, label, read_table, write_table
 
 KIND = "folder of tables"
@@ -61,7 +61,7 @@ def opened(folder: Path) -> Iterator[Stored]:
 
 def _read_text(path: Path) -> str:
     """A text as :func:`write_text` wrote it, whatever ends of lines an editor gave it since."""
-    return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
+    return decoded(path.read_bytes()).replace("\r\n", "\n")
 
 
 def _codes(column: str, texts: np.ndarray) -> np.ndarray:

@@ -70,7 +70,7 @@ class Description:
 
     @property
     def texts(self) -> dict[str, str]:
-        """Both texts by name."""
+        """Texts of the engine and of the run, by the names of their files."""
         return {"engine_toml": self.engine_toml, "run_json": self.run_json}
 
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
-import signal
-import threading
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from saleg.errors import RunFileError, SalegError
-from saleg.files.reading import is_folder
+from saleg.files.reading import expanded, is_folder
+from saleg.files.signals import ending_in_order, held_off
 
 
 def write_text(path: Path, text: str, mode: int = 0o666) -> None:
@@ -36,13 +35,14 @@ def write_text(path: Path, text: str, mode: int = 0o666) -> None:
         return os.open(name, flags, mode)
 
     temporary = _beside(path)
-    try:
-        with open(temporary, "x", encoding="utf-8", newline="\n", opener=opened) as file:
-            file.write(text)
-        os.replace(temporary, path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+    with ending_in_order():
+        try:
+            with open(temporary, "x", encoding="utf-8", newline="\n", opener=opened) as file:
+                file.write(text)
+            os.replace(temporary, path)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
 
 
 @contextmanager
@@ -59,7 +59,7 @@ def new_file(target: Path, overwrite: bool = False) -> Iterator[Path]:
     Yields
     ------
     Path
-        Where to write. It is removed if anything goes wrong, Ctrl-C included.
+        Where to write. It is removed if anything goes wrong, Ctrl-C and SIGTERM included.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def new_file(target: Path, overwrite: bool = False) -> Iterator[Path]:
             raise RunFileError(f"{path} exists already; name another file, or pass overwrite=True")
         is_folder(path, RunFileError)  # refuses devices and pipes
 
-    with _taking_its_place(target, check) as temporary:
+    with ending_in_order(), _taking_its_place(target, check) as temporary:
         yield temporary
 
 
@@ -102,7 +102,7 @@ def new_folder(
     Yields
     ------
     Path
-        Folder to write to. It is removed if anything goes wrong, Ctrl-C included.
+        Folder to write to. It is removed if anything goes wrong, Ctrl-C and SIGTERM included.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def new_folder(
             raise RunFileError(f"{path} exists already; name another folder, or {how}")
         _refuse_strange(path, known)
 
-    with _taking_its_place(target, check) as temporary:
+    with ending_in_order(), _taking_its_place(target, check) as temporary:
         temporary.mkdir()
         yield temporary
 
@@ -125,7 +125,7 @@ def new_folder(
 def _taking_its_place(target: Path, check: Callable[[Path], None]) -> Iterator[Path]:
     made: list[Path] = []
     try:
-        target = target.resolve()
+        target = expanded(target).resolve()
         check(target)
         made = _make_parents(target)
         temporary = _beside(target)
@@ -171,7 +171,7 @@ def _make_parents(target: Path) -> list[Path]:
 
 def _remove(made: list[Path]) -> None:
     """Remove the temporary file or folder and what was made above it, as far as it is empty."""
-    with _undisturbed():
+    with held_off():
         if made and made[-1].is_dir():
             shutil.rmtree(made[-1], ignore_errors=True)
         elif made:
@@ -185,7 +185,7 @@ def _remove(made: list[Path]) -> None:
 
 def _put_in_place(temporary: Path, target: Path) -> None:
     """Give what is complete its name; a folder that had it is set aside, then removed."""
-    with _undisturbed():
+    with held_off():
         if not target.is_dir():
             os.replace(temporary, target)
             return
@@ -197,16 +197,3 @@ def _put_in_place(temporary: Path, target: Path) -> None:
             aside.rename(target)
             raise
         shutil.rmtree(aside)
-
-
-@contextmanager
-def _undisturbed() -> Iterator[None]:
-    """Hold off Ctrl-C for the moment names change."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 import stat
 from collections.abc import Iterator
@@ -12,8 +13,13 @@ from typing import Any
 from saleg.errors import SalegError
 
 
+def expanded(path: str | os.PathLike[str]) -> Path:
+    """A path with ``~`` at its beginning as the home folder, where there is one."""
+    return Path(os.path.expanduser(path))
+
+
 def as_path(path: Any, error: type[SalegError], name: str = "path") -> Path:
-    """A path from what a user gives as one.
+    """A path from what a user gives as one, ``~`` being the home folder.
 
     Raises
     ------
@@ -21,7 +27,7 @@ def as_path(path: Any, error: type[SalegError], name: str = "path") -> Path:
         Of the type `error`, if it is neither text nor a path, or no system has such a name.
     """
     try:
-        given = Path(path)
+        given = expanded(path)
         os.fsencode(given)
         if "\0" in str(given):
             raise ValueError
@@ -73,6 +79,27 @@ def read_text(path: Any, error: type[SalegError]) -> str:
     with named(path, error):
         content = path.read_bytes()
     try:
+        return decoded(content)
+    except ValueError as trouble:
+        raise error(f"cannot read {path}: {trouble}") from None
+
+
+def decoded(content: bytes) -> str:
+    """Text of bytes in UTF-8, with or without a mark at their beginning.
+
+    Raises
+    ------
+    ValueError
+        Saying what they are instead.
+    """
+    refuse_utf16(content)
+    try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as trouble:
-        raise error(f"cannot read {path}: it is no text in UTF-8 ({trouble})") from None
+        raise ValueError(f"it is no text in UTF-8 ({trouble})") from None
+
+
+def refuse_utf16(beginning: bytes) -> None:
+    """Raise a ValueError if a file begins as one that an editor saved in UTF-16."""
+    if beginning.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        raise ValueError("it is text in UTF-16; save it as UTF-8")

@@ -10,6 +10,8 @@ from typing import Any, TextIO
 
 import numpy as np
 
+from saleg.files.reading import refuse_utf16
+
 #: Rows turned into text at a time.
 BLOCK = 5_000
 
@@ -73,8 +75,8 @@ def read_table(
     OSError
         If the file cannot be read.
     """
-    _refuse_cut(path)
     try:
+        _refuse_cut(path)
         with open(path, encoding="utf-8-sig", newline="") as file:
             labels = next(csv.reader([file.readline()]))
             for name in needed:
@@ -93,8 +95,9 @@ def read_table(
 
 
 def _refuse_cut(path: Path) -> None:
-    """Refuse a table whose last line has no end."""
+    """Refuse a table in another coding, or whose last line has no end."""
     with open(path, "rb") as file:
+        refuse_utf16(file.read(2))
         file.seek(max(file.seek(0, os.SEEK_END) - 1, 0))
         if file.read(1) != b"\n":
             raise DamagedTable("it was cut short")

@@ -42,7 +42,7 @@ class Verification:
 
     @property
     def strokes(self) -> int:
-        """Strokes both have finished: one may end in a head, or never begin."""
+        """Number of strokes that both models finish: either may meet a head, or never begin."""
         return min(len(self.history.strokes), len(self.run.strokes))
 
     @cached_property

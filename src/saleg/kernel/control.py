@@ -7,21 +7,46 @@ no other kernel; `control` is a :class:`saleg.kernel.tuples.Control`.
 from math import inf, isfinite, nan, pi
 
 from saleg.kernel.jit import compiled, inline
-from saleg.kernel.layout import CONTROL_PARTS, MEMORY
+from saleg.kernel.layout import CONTROL_PARTS, LEFT, MEMORY, RIGHT
 from saleg.kernel.rhs import motor_angle
 from saleg.kernel.slots import actuators_follow, actuators_refused, call_at
+from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Commands
+
+# How near to a head a position counts, over the clearance at the midpoint.
+NEAREST = 1.0 - 1e-9
 
 
 @compiled
-def write_signals(E, signals):
+def compression_ratio(C, low, high):
+    """Geometric compression ratio between two positions, of the cylinders together [-].
+
+    Without a cylinder, of both chambers. Heads end the way.
+    """
+    low = max(low, -NEAREST * C[LEFT].half_stroke)
+    high = min(high, NEAREST * C[RIGHT].half_stroke)
+    alike = (C[LEFT].lower_heating_value > 0.0) == (C[RIGHT].lower_heating_value > 0.0)
+    greatest, least = 0.0, 0.0
+    for side in range(2):
+        c = C[side]
+        if alike or c.lower_heating_value > 0.0:
+            near, far = (low, high) if c.sign > 0.0 else (high, low)
+            greatest += c.area * clearance_of(C, side, far)
+            least += c.area * clearance_of(C, side, near)
+    return greatest / least
+
+
+@compiled
+def write_signals(E, C, signals):
     """Fill a record of :class:`saleg.laws.Signals` with the measurements of a dead centre."""
-    half = 0.5 * E.maximum_stroke
+    # A start in the middle of a stroke has guessed its length alone.
+    here = E.x_dead_centre if isfinite(E.x_dead_centre) else -0.5 * E.direction * E.stroke
+    before = here + E.direction * E.stroke
     signals.t = E.t
     signals.x = E.x_dead_centre
     signals.direction = E.direction
     signals.stroke = E.stroke
-    signals.compression_ratio = (half + 0.5 * E.stroke) / (half - 0.5 * E.stroke)
+    signals.compression_ratio = compression_ratio(C, min(here, before), max(here, before))
     signals.frequency = 0.5 / E.stroke_duration if E.stroke_duration > 0.0 else 0.0
     signals.power = E.power
     signals.regulated_weight = E.regulated_weight
@@ -49,10 +74,10 @@ def commands_of(record):
 
 
 @compiled
-def ask(E, control):
+def ask(E, C, control):
     """Commands of the controller; the memory of its parts travels with the engine's record."""
     memory, signals, commands = control.memory, control.signals, control.commands
-    write_signals(E, signals[0])
+    write_signals(E, C, signals[0])
     for n in range(CONTROL_PARTS * MEMORY):
         memory[n] = E.memory[n]
     commands[0] = commands[1]  # NaN, which stays where the controller fails
@@ -71,7 +96,7 @@ def ask(E, control):
 
 @inline
 def in_force(E, load_weight, amplitude, equivalence_ratio, intake_temperature):
-    """Commands in force, with these values of the quantities whose actuators may lag."""
+    """Commands that act now; quantities whose actuators may lag have the values given."""
     return Commands(
         motoring=E.motoring,
         load_weight=load_weight,

@@ -22,7 +22,8 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import clearance_of, ln_temperature, rhs
+from saleg.kernel.rhs import ln_temperature, rhs
+from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
 
 

@@ -2,6 +2,10 @@
 
 One loop serves fixed steps on a grid and the adaptive pair. A step that crosses an event is
 shortened to end on it; there modes change and the next step starts afresh.
+
+Arguments shared by functions here: `P` the laws, `E` the engine's record, `C` the two chambers'
+records, `O` the options of the run (all in :mod:`saleg.kernel.layout`), `y` the state, `k` the
+rates of a step's stages.
 """
 
 from math import copysign, exp, log
@@ -35,7 +39,8 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.observe import observe
 from saleg.kernel.peaks import watch_point, watch_step
-from saleg.kernel.rhs import clearance_of, refresh, rhs
+from saleg.kernel.rhs import refresh, rhs
+from saleg.kernel.state import clearance_of, keep_snapshot
 from saleg.kernel.step import error_norm, take_step
 from saleg.kernel.switch import has_room, switch
 
@@ -140,19 +145,6 @@ def advance_to_event(P, E, C, O, tableau, h, aim, y, k, y_new):
     if landed >= 0:
         land(E, C, landed, y_new)
     return h, landed
-
-
-@compiled
-def keep_snapshot(E1, C, y, snapshots):
-    """Remember the state at a left dead centre; the one before moves to second place."""
-    snapshots.engine[1] = snapshots.engine[0]
-    snapshots.engine[0] = E1[0]
-    for side in range(2):
-        snapshots.chambers[1, side] = snapshots.chambers[0, side]
-        snapshots.chambers[0, side] = C[side]
-    for n in range(N_ALL):
-        snapshots.y[1, n] = snapshots.y[0, n]
-        snapshots.y[0, n] = y[n]
 
 
 @compiled

@@ -14,8 +14,9 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.peaks import pressure_rate
-from saleg.kernel.rhs import alternator_action, clearance_of, gas_of
+from saleg.kernel.rhs import alternator_action, gas_of
 from saleg.kernel.slots import friction_force, springs_force
+from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Motion
 
 

@@ -8,7 +8,6 @@ itself, seen in the mirror, after half a cycle.
 
 from math import exp, inf, isfinite, log
 
-from saleg.kernel.integrate import keep_snapshot
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
     BURNING,
@@ -26,7 +25,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.run_plainly import run_at
-from saleg.kernel.switch import begin_stroke
+from saleg.kernel.state import begin_stroke, clearance_of, copy_row, keep_snapshot
 
 # What do_orbit is asked for.
 FIND = 0
@@ -133,9 +132,9 @@ def read_vector(E, C, y, z):
 @compiled
 def mirror(E, C, y, spare_chamber):
     """Exchange left and right, so that a right dead centre becomes a left one."""
-    spare_chamber[0] = C[0]
-    C[0] = C[1]
-    C[1] = spare_chamber[0]
+    copy_row(spare_chamber, 0, C, 0)
+    copy_row(C, 0, C, 1)
+    copy_row(C, 1, spare_chamber, 0)
     C[0].sign, C[1].sign = 1.0, -1.0
     for first in (THETA, IGNITION, MOTORED):
         y[first], y[first + 1] = y[first + 1], y[first]

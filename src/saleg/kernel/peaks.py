@@ -23,7 +23,8 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import clearance_of, rhs
+from saleg.kernel.rhs import rhs
+from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
 
 # Share of the greatest value so far below which both ends of a step promise no greater one within.

@@ -51,18 +51,13 @@ from saleg.kernel.slots import (
     springs_force,
     springs_next_breakpoint,
 )
+from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Charge, Gas, Motion
 
 # How near a breakpoint counts as reached, over the half stroke or the duration of the combustion, and
 # how far beside it is beyond it.
 AT_BREAKPOINT = 1e-9
 ONE_SIDE = 1e-15
-
-
-@inline
-def clearance_of(C, side, x):
-    """Clearance between crown and head [m]."""
-    return C[side].half_stroke + C[side].sign * x
 
 
 @inline

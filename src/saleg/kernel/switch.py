@@ -37,8 +37,6 @@ from saleg.kernel.layout import (
     LATE,
     LEFT,
     MOTORED,
-    N_ALL,
-    N_PEAKS,
     N_STATE,
     OPEN,
     PEAK_ACCELERATION,
@@ -55,7 +53,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.rhs import charge_of, clearance_of, gas_of, refresh
+from saleg.kernel.rhs import charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
     friction_at_dead_centre,
@@ -68,6 +66,7 @@ from saleg.kernel.slots import (
     misfires_happens,
     springs_energy,
 )
+from saleg.kernel.state import begin_stroke, clearance_of
 from saleg.laws.arguments import Motion, Stroke
 
 # Longest first step of a combustion, over its duration.
@@ -274,23 +273,6 @@ def write_stroke(P, E, C, y, peaks, row):
 
 
 @compiled
-def begin_stroke(E, C, y, peaks):
-    """Reset the quantities that are counted per stroke."""
-    for n in range(N_STATE, N_ALL):
-        y[n] = 0.0
-    for peak in range(N_PEAKS):
-        peaks[peak] = 0.0
-    for side in range(2):
-        C[side].fresh_fuel_energy = 0.0
-        C[side].exhaust_energy = 0.0
-        C[side].exhaust_fuel_energy = 0.0
-        C[side].ignition_time = -1.0
-        C[side].ignition_height = 0.0
-    E.x_dead_centre = y[X]
-    E.t_dead_centre = E.t
-
-
-@compiled
 def regulate(P, E, C, y):
     """Hand the finished stroke to the laws that act at a dead centre."""
     fuel = C[LEFT].fresh_fuel_energy + C[RIGHT].fresh_fuel_energy
@@ -397,7 +379,7 @@ def turn(P, E, C, y, peaks, tables, control):
         c = C[side]
         c.renewal_due = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
     if E.controlled == COMPILED:
-        obey(P, E, C, ask(E, control), E.t - E.t_command)
+        obey(P, E, C, ask(E, C, control), E.t - E.t_command)
 
 
 @compiled

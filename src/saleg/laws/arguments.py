@@ -100,7 +100,7 @@ class Stroke(NamedTuple):
     length, duration : float
         Distance [m] and time [s] between the last two dead centres.
     maximum : float
-        Greatest geometrically possible stroke [m].
+        Greatest geometrically possible stroke [m], see :attr:`saleg.Engine.maximum_stroke`.
     half_maximum : float
         Half of it, the neutral clearance length L [m].
     piston_area : float
@@ -134,7 +134,8 @@ class Signals(NamedTuple):
     stroke : float
         Distance between the last two dead centres S [m].
     compression_ratio : float
-        Geometric, ``(L + S/2) / (L - S/2)`` [-].
+        Geometric, between the last two dead centres: greatest over least volume of the cylinders
+        together, ``(L + S/2) / (L - S/2)`` where they are alike [-].
     frequency : float
         ``1 / (2 x duration of the stroke)`` [Hz]; 0 before the first.
     power : float
@@ -147,11 +148,11 @@ class Signals(NamedTuple):
     was_motoring : float
         1 if it was a motor in the stroke just ended.
     maximum_stroke : float
-        Greatest geometrically possible stroke [m].
+        Greatest geometrically possible stroke [m], see :attr:`saleg.Engine.maximum_stroke`.
     rated_equivalence_ratio : float
-        Equivalence ratio the engine is built with [-].
+        Equivalence ratio the engine is built with, the mean of the cylinders with fuel [-].
     rated_intake_temperature : float
-        Intake temperature the engine is built with [K].
+        Intake temperature the engine is built with, the mean of theirs [K].
     """
 
     t: float

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import types
 from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any
@@ -46,6 +47,18 @@ def check_law(law: type[Law]) -> None:
         if name not in law.optional and any(vars(base).get(name) is method for base in bases):
             raise LawError(f"{law.__name__}.{name} is missing: a {law.slot} law has that method")
         plain = (inspect.Parameter.POSITIONAL_OR_KEYWORD,)
-        for parameter in inspect.signature(method).parameters.values():
+        function = plain_function(method, f"{law.__name__}.{name}")
+        for parameter in inspect.signature(function, follow_wrapped=False).parameters.values():
             if parameter.kind not in plain:
                 raise LawError(f"{law.__name__}.{name}: '{parameter}' must be a plain argument")
+
+
+def plain_function(method: Any, owner: str) -> types.FunctionType:
+    """A method as the function that runs, one jitted already among them."""
+    function = getattr(method, "py_func", method)
+    if not isinstance(function, types.FunctionType):
+        raise LawError(
+            f"{owner} is a {type(method).__name__}; a law's method is a plain function: leave out "
+            "its decorator"
+        )
+    return function

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from saleg.files.atomic import new_file
+from saleg.files.reading import as_path
 from saleg.plotting.film import AnimationError, Film
 from saleg.plotting.film_files import WRITERS
 from saleg.quantities import is_number
@@ -69,7 +70,7 @@ def animate(
     >>> run = saleg.simulate(saleg.machines.thesis_base(), 0.5)
     >>> saleg.plotting.animate(run, "engine.gif")  # doctest: +SKIP
     """
-    path = Path(path)
+    path = as_path(path, AnimationError)
     check_suffix(path)
     _within("frames", frames, FRAMES)
     _within("width", width, WIDTHS)

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from saleg.errors import AxesError
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -75,8 +77,14 @@ def new_figure(width: float = 6.4, height: float = 4.4) -> Figure:
 
 
 def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> Axes:
-    """The axes handed in, or those of a new figure of the given size [inch]."""
-    return new_figure(width, height).subplots() if ax is None else ax
+    """The axes handed in, or those of a new figure of the given size [inch].
+
+    Raises
+    ------
+    AxesError
+        If it is no axes.
+    """
+    return new_figure(width, height).subplots() if ax is None else _checked(ax)
 
 
 def panels_or_new(
@@ -108,7 +116,7 @@ def panels_or_new(
 
     Raises
     ------
-    ValueError
+    AxesError
         If there are not as many axes as the figure needs.
     """
     needed = shape[0] * shape[1] if count is None else count
@@ -119,8 +127,24 @@ def panels_or_new(
         return np.asarray(made[:needed])
     panels = np.asarray(ax, dtype=object).ravel()
     if len(panels) != needed:
-        raise ValueError(f"this figure needs {needed} axes, not {len(panels)}")
+        raise AxesError(f"this figure needs {needed} axes, not {len(panels)}; {_HINT}")
+    for panel in panels:
+        _checked(panel)
     return panels
+
+
+_HINT = "hand in as many, as plt.subplots(...)[1] gives them, or none"
+
+
+def _checked(ax: Any) -> Any:
+    """The axes handed in; anything else is refused."""
+    from matplotlib.axes import Axes
+
+    if not isinstance(ax, Axes):
+        many = isinstance(ax, (np.ndarray, list, tuple))
+        what = f"{len(ax)} in a {type(ax).__name__}" if many else repr(ax)
+        raise AxesError(f"ax must be one matplotlib axes here, not {what}")
+    return ax
 
 
 def marker(shape: str, colour: str, scale: float = 1.0) -> dict[str, Any]:

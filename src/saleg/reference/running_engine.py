@@ -30,9 +30,9 @@ from saleg.reference.states import (
     EngineState,
     StrokeTotals,
     chamber_state,
-    ratings,
     stroke_before,
 )
+from saleg.simulation.initial_state import ratings
 
 #: Distance from a port at which it counts as reached, over the half stroke [-].
 SLACK = 1e-13

@@ -9,7 +9,6 @@ from saleg.engine import Chamber, CombustionChamber, Engine, SealedCylinder
 from saleg.engine.start import Contents, Initial
 from saleg.kernel import layout
 from saleg.laws.arguments import Stroke
-from saleg.simulation.initial_state import rated_side
 
 
 @dataclass
@@ -153,10 +152,3 @@ def stroke_before(engine: Engine, start: Initial, piston_area: float) -> Stroke:
         fuel_energy=0.0,
         speed_squared=0.0,
     )
-
-
-def ratings(engine: Engine) -> tuple[float, float]:
-    """Equivalence ratio and intake temperature [K] the engine is built with."""
-    ratios = [getattr(chamber, "equivalence_ratio", 0.0) for chamber in engine.chambers]
-    side = rated_side(ratios)
-    return ratios[side], engine.chambers[side].reference_state.temperature

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +17,7 @@ from saleg.laws.arguments import Commands
 from saleg.simulation.initial_state import State
 from saleg.simulation.kernel_arguments import arguments_of
 from saleg.simulation.outcome import outcome_of
+from saleg.simulation.progress import progress_bar
 from saleg.simulation.records import Records
 from saleg.simulation.run import Run
 from saleg.simulation.settings import Detail, Settings
@@ -31,6 +30,7 @@ if TYPE_CHECKING:
 STEPS_PER_CALL = 200_000
 #: Instants recorded within each step of the last cycle, so that curves through them are smooth.
 ORBIT_POINTS = 7
+BAR = "{l_bar}{bar}| {n:.3g}/{total:.3g} s simulated [{elapsed}<{remaining}]"
 DEFAULT_DETAIL = Detail()
 #: Status and message of a run, from its course and the code with which the kernel stopped.
 Judge = Callable[["Course", int], tuple[Status, str]]
@@ -114,7 +114,7 @@ class Course:
 
     def _integrate(self) -> int:
         """Call the kernel until it is done; returns why it stopped."""
-        with _progress(self.settings.duration) as bar:
+        with progress_bar(self.settings.duration, bar_format=BAR) as bar:
             while True:
                 before = self.state.time
                 code = self.advance()
@@ -202,16 +202,3 @@ class Replay:
         last = float(state.engine["strokes"][0]) + 2.0
         detail = Detail(peaks=2, dense=ORBIT_POINTS, last_stroke=last)
         return Course(self.engine, state, asked, self.controller, detail)
-
-
-@contextmanager
-def _progress(duration: float) -> Iterator[Any]:
-    """Progress bar for runs longer than a second of waiting, on a terminal only."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from tqdm import tqdm
-
-    form = "{l_bar}{bar}| {n:.3g}/{total:.3g} s simulated [{elapsed}<{remaining}]"
-    with tqdm(total=duration, delay=1, leave=False, bar_format=form) as bar:
-        yield bar

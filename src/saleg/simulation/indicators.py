@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saleg.engine import Chamber, CombustionChamber, Engine
+from saleg.kernel.control import NEAREST
 
 if TYPE_CHECKING:
     from saleg.laws import HeatRelease
@@ -148,6 +149,23 @@ def full_cycles(strokes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return strokes[starts], strokes[starts + 1]
 
 
+def beyond_ports(engine: Engine, strokes: np.ndarray) -> np.ndarray:
+    """Whether each stroke ended with the ports of a cylinder open."""
+    left, right = (
+        getattr(chamber, "port_closing", math.inf) - chamber.half_stroke
+        for chamber in engine.chambers
+    )
+    return np.asarray((strokes["x_end"] > left) | (-strokes["x_end"] > right))
+
+
+def stroke_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
+    """Geometric compression ratio of every stroke, between its dead centres [-]."""
+    start, end = strokes["x_start"], strokes["x_end"]
+    return np.asarray(
+        compression_ratio(engine, np.minimum(start, end), np.maximum(start, end)), dtype=float
+    )
+
+
 def cycle_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
     """Geometric compression ratio of every full cycle, between its outermost positions [-]."""
     out, back = full_cycles(strokes)
@@ -155,29 +173,30 @@ def cycle_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
 
 
 def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
-    """Geometric compression ratio between two positions, the mean of the cylinders' [-].
+    """Geometric compression ratio between two positions, of the cylinders together [-].
+
+    Their greatest volumes over their least: ``(L + S/2) / (L - S/2)`` for two that are alike, and
+    for a single cylinder its own. Without a cylinder, of both chambers.
 
     Parameters
     ----------
     engine : Engine
     low, high : float or ndarray
-        Dead centres [m].
+        Dead centres [m]; heads end the way.
 
     Returns
     -------
     float or ndarray
-        For a symmetric orbit ``(L + S/2) / (L - S/2)``. Without a cylinder, of both chambers.
     """
     left, right = engine.chambers
-    ratios = [
-        (left.half_stroke + high) / (left.half_stroke + low),
-        (right.half_stroke - low) / (right.half_stroke - high),
-    ]
-    fired = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
-    chosen = [
-        ratio for ratio, counts in zip(ratios, fired, strict=True) if counts or not any(fired)
-    ]
-    return sum(chosen) / len(chosen)
+    low = np.maximum(low, -NEAREST * left.half_stroke)
+    high = np.minimum(high, NEAREST * right.half_stroke)
+    greatest, least = 0.0, 0.0
+    for chamber, near, far in ((left, low, high), (right, -high, -low)):
+        if isinstance(chamber, CombustionChamber) or not engine.has_combustion:
+            greatest = greatest + chamber.area * (chamber.half_stroke + far)
+            least = least + chamber.area * (chamber.half_stroke + near)
+    return greatest / least
 
 
 def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:

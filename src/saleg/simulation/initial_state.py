@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.engine.start import Contents
-from saleg.errors import StartError
+from saleg.errors import LawError, SalegError, StartError
 from saleg.kernel import layout
 from saleg.kernel.rhs import refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
+from saleg.simulation.faulty_law import Fault, asked
 
 if TYPE_CHECKING:
     from saleg.engine import Chamber, Engine
@@ -63,18 +65,37 @@ def prepare(engine: Engine) -> State:
     Raises
     ------
     LawError
-        If a law cannot become part of a kernel.
+        If a law cannot become part of a kernel, or gives no number.
     StartError
         If a law overflows or divides by zero there.
     """
     engine.check_laws()
+    check_methods(engine.laws.values())
     try:
         return _prepare(engine)
-    except (ArithmeticError, ValueError) as error:
-        raise StartError(
-            f"a law cannot be evaluated at the start ({error}): check its parameters, or begin "
-            "with another start"
-        ) from error
+    except SalegError:
+        raise
+    except Exception as error:
+        fault = _fault_of(engine)
+        if isinstance(error, (ArithmeticError, ValueError)):
+            raise StartError(
+                f"a law cannot be evaluated at the start ({fault or error}): check its "
+                "parameters, or begin with another start"
+            ) from error
+        if fault:
+            raise LawError(fault) from error
+        raise
+
+
+def _fault_of(engine: Engine) -> str:
+    """Method of a law that keeps an engine from starting; empty if none does."""
+    try:
+        _prepare(asked(engine))
+    except Fault as fault:
+        return str(fault)
+    except (ArithmeticError, ValueError):  # not a law's
+        return ""
+    return ""
 
 
 def _prepare(engine: Engine) -> State:
@@ -139,23 +160,31 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
     E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
     E.regulated_weight = E.load_weight
-    _rate(E, C)
+    _rate(E, C, engine)
 
 
-def _rate(E: Any, C: Any) -> None:
-    """Note fuel and intake temperature the engine is built with: those of its first fired side."""
-    first = C[rated_side([c.equivalence_ratio_wanted for c in C])]
-    E.rated_equivalence_ratio = E.equivalence_ratio = first.equivalence_ratio_wanted
-    E.rated_intake_temperature = E.intake_temperature = first.intake_temperature
-    rated = E.rated_equivalence_ratio
+def _rate(E: Any, C: Any, engine: Engine) -> None:
+    """Note fuel and intake temperature the engine is built with, and how each side differs."""
+    rated, temperature = ratings(engine)
+    E.rated_equivalence_ratio = E.equivalence_ratio = rated
+    E.rated_intake_temperature = E.intake_temperature = temperature
     for c in C:
-        c.beside_rated_temperature = c.intake_temperature - E.rated_intake_temperature
+        c.beside_rated_temperature = c.intake_temperature - temperature
         c.over_rated_fuel = c.equivalence_ratio_wanted / rated if rated > 0.0 else 1.0
 
 
-def rated_side(ratios: Sequence[float]) -> int:
-    """Side whose fuel and intake are the engine's rated ones: the first with any fuel, else 0."""
-    return next((side for side, ratio in enumerate(ratios) if ratio > 0.0), 0)
+def ratings(engine: Engine) -> tuple[float, float]:
+    """Equivalence ratio [-] and intake temperature [K] an engine is built with.
+
+    Means of the cylinders with fuel, so that they do not depend on the side; without any, of all
+    cylinders, and without a cylinder of both chambers.
+    """
+    cylinders = [chamber for chamber in engine.chambers if isinstance(chamber, CombustionChamber)]
+    fuelled = [cylinder for cylinder in cylinders if cylinder.equivalence_ratio > 0.0]
+    counted: Sequence[Chamber] = fuelled or cylinders or engine.chambers
+    ratio = sum(cylinder.equivalence_ratio for cylinder in fuelled) / len(counted)
+    temperature = sum(chamber.reference_state.temperature for chamber in counted) / len(counted)
+    return ratio, temperature
 
 
 def current_scale(engine: Engine, load_weight: float, speed: float) -> float:

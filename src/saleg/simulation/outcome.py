@@ -9,6 +9,7 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
+from saleg.simulation.faulty_law import fault_near
 from saleg.simulation.initial_state import State
 from saleg.simulation.performance import EnergyBalance
 from saleg.status import Status
@@ -44,9 +45,11 @@ def outcome_of(
             "try less fuel, a larger load or more half_stroke"
         )
     if code == layout.STEP_FAILURE:
+        there = state.copy()
+        fault = fault_near(engine, *there.records, there.y)
+        why = f"{fault}; a law must give finite numbers" if fault else "try a looser rtol"
         return Status.STEP_FAILURE, (
-            f"no step was small enough at t = {t:.6g} s (x = {x:.5g} mm); "
-            "try a looser rtol, or check the laws for values that are not finite"
+            f"no step was small enough at t = {t:.6g} s (x = {x:.5g} mm); {why}"
         )
     if code == layout.TOO_MANY_STEPS:
         return Status.STEP_FAILURE, (

@@ -50,16 +50,17 @@ def figure(unit: str, label: str, digits: int | None = None, note: str = "") -> 
 class Performance:
     """Performance over one full cycle, left dead centre to left dead centre; SI.
 
-    NaN stands for what is not defined: efficiencies without fresh fuel, timings without a start of
-    combustion, the change of the compression ratio over a single cycle.
+    Figures of cylinders leave bounce chambers out; an engine without a cylinder has those of both
+    chambers. NaN stands for what is not defined: efficiencies without fresh fuel, timings without
+    a start of combustion, the change of the compression ratio over a single cycle.
 
     Attributes
     ----------
     stroke : float
         Stroke [m].
     compression_ratio : float
-        Geometric compression ratio of the cylinders, ``(L + S/2) / (L - S/2)`` when the orbit is
-        symmetric [-].
+        Geometric compression ratio, greatest over least volume of the cylinders together [-]:
+        ``(L + S/2) / (L - S/2)`` where they are alike.
     frequency : float
         Cycles per second [Hz].
     power, rms_power : float
@@ -69,7 +70,8 @@ class Performance:
     mean_alternator_force : float
         Time mean of the magnitude of the alternator force [N].
     peak_pressure : float
-        Greatest pressure in either chamber [Pa].
+        Greatest pressure in a cylinder [Pa]. That of a bounce chamber stands in the tables of
+        cycles and dead centres, which have the peaks of each side.
     peak_acceleration, peak_velocity : float
         Greatest magnitudes [m/s^2, m/s].
     fuel_energy_per_cycle : float
@@ -79,9 +81,9 @@ class Performance:
     moving_mass : float
         Mass of the translator [kg].
     peak_temperature : float
-        Greatest temperature in either chamber [K].
+        Greatest temperature in a cylinder [K].
     peak_pressure_rise : float
-        Greatest rate of pressure rise in either chamber [Pa/s].
+        Greatest rate of pressure rise in a cylinder [Pa/s].
     indicated_work : float
         Work of the gas on both pistons, open ports included [J].
     indicated_efficiency : float
@@ -164,6 +166,7 @@ class Performance:
         ends = np.append(strokes["x_start"], strokes["x_end"])
         fuel = float(strokes["fresh_fuel_energy"].sum())
         cylinders = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
+        counted = [fires or not any(cylinders) for fires in cylinders]
         work = float(strokes["gas_work"].sum())
         burn = timing(engine, strokes)
         stability, cr_change = repeatability(engine, run)
@@ -176,14 +179,14 @@ class Performance:
             rms_power=math.sqrt(max(float(strokes["electrical_squared"].sum()), 0.0) / period),
             efficiency=power * period / fuel if fuel > 0.0 else nan,
             mean_alternator_force=float(strokes["alternator_impulse"].sum()) / period,
-            peak_pressure=float(strokes["peak_pressure"].max()),
+            peak_pressure=float(strokes["peak_pressure"][:, counted].max()),
             peak_acceleration=float(strokes["peak_acceleration"].max()),
             peak_velocity=float(strokes["peak_velocity"].max()),
             fuel_energy_per_cycle=fuel,
             charge_mass=float(masses.mean()),
             moving_mass=float(engine.translator.mass),
-            peak_temperature=float(strokes["peak_temperature"].max()),
-            peak_pressure_rise=float(strokes["peak_pressure_rise"].max()),
+            peak_temperature=float(strokes["peak_temperature"][:, counted].max()),
+            peak_pressure_rise=float(strokes["peak_pressure_rise"][:, counted].max()),
             indicated_work=work,
             indicated_efficiency=work / fuel if fuel > 0.0 else nan,
             adverse_work=nan if history is None else adverse_work(engine, history),
@@ -209,23 +212,32 @@ MAX_COMPRESSION_RATIO = 80.0
 MAX_PISTON_SPEED = 30.0
 
 
-def remarks_on(performance: Performance) -> list[str]:
+def remarks_on(engine: Engine, performance: Performance, strokes: np.ndarray) -> list[str]:
     """Figures that no engine built comes near, as text.
 
     Parameters
     ----------
+    engine : Engine
     performance : Performance
+    strokes : ndarray of STROKE_RECORD
+        The cycle, empty where it is not known.
 
     Returns
     -------
     list of str
         Empty for most engines, and where the figures are not known.
     """
-    pressure, ratio = performance.peak_pressure, performance.compression_ratio
+    ratio = performance.compression_ratio
     speed = 2.0 * performance.stroke * performance.frequency
     found = []
-    if pressure > MAX_PRESSURE:
-        found.append(f"peak pressure {pressure / 1e5:.4g} bar (> {MAX_PRESSURE / 1e5:g})")
+    pressures = {"": performance.peak_pressure}
+    for side, chamber in enumerate(engine.chambers):
+        if engine.has_combustion and not isinstance(chamber, CombustionChamber):
+            pressures[" in the bounce chamber"] = strokes["peak_pressure"][:, side].max(initial=0.0)
+    for where, pressure in pressures.items():
+        if pressure > MAX_PRESSURE:
+            limit = MAX_PRESSURE / 1e5
+            found.append(f"peak pressure{where} {pressure / 1e5:.4g} bar (> {limit:g})")
     if ratio > MAX_COMPRESSION_RATIO:
         found.append(f"compression ratio {ratio:.4g} (> {MAX_COMPRESSION_RATIO:g})")
     if speed > MAX_PISTON_SPEED:

@@ -140,7 +140,9 @@ class Run:
     @property
     def remarks(self) -> list[str]:
         """Figures of the last full cycle that no engine built comes near, as text; often none."""
-        return remarks_on(self.performance)
+        start = last_cycle_start(self.strokes)
+        cycle = self.strokes[:0] if start is None else self.strokes[start : start + 2]
+        return remarks_on(self.engine, self.performance, cycle)
 
     @cached_property
     def performance(self) -> Performance:

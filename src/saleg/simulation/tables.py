@@ -7,7 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.engine import Engine
-from saleg.simulation.indicators import cycle_compression_ratios, full_cycles
+from saleg.simulation.indicators import (
+    cycle_compression_ratios,
+    full_cycles,
+    stroke_compression_ratios,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -139,12 +143,11 @@ def dead_centre_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
     import pandas as pd
 
     length = np.abs(strokes["x_end"] - strokes["x_start"])
-    maximum = engine.maximum_stroke
     columns = {
         "t": strokes["t"],
         "x": strokes["x_end"],
         "stroke": length,
-        "compression_ratio": (maximum + length) / (maximum - length),
+        "compression_ratio": stroke_compression_ratios(engine, strokes),
         "frequency": 0.5 / strokes["duration"],
         "power": strokes["electrical_energy"] / strokes["duration"],
         "motoring": strokes["motoring"] > 0.0,

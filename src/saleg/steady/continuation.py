@@ -27,12 +27,16 @@ from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import (
     NoReturn,
     ReturnMap,
-    conserved_entries,
     is_symmetric,
     repeats_itself,
 )
+from saleg.steady.sealed_gas import (
+    missing_entropy,
+    missing_entropy_rates,
+    with_sealed_charges,
+)
 from saleg.steady.solver import SteadyState, result_of, steady_state
-from saleg.steady.stability import FINE, Stability, judged
+from saleg.steady.stability import FINE, Stability, judged, own_multipliers
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -226,11 +230,6 @@ def branch(
     engine.replace(**{path: end}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")
-    if conserved_entries(engine):
-        raise NoBranch(
-            "a sealed chamber without heat transfer keeps the entropy it is given, so its orbit is "
-            "not a single one: give the bounce chamber a heat-transfer law"
-        )
     first = steady_state(engine, rtol=1e-9)
     if not first.found or first.replay is None:
         raise NoBranch(f"no steady state to begin with: {first.message}")
@@ -259,7 +258,7 @@ class _Follower:
         return self.engine.replace(**{self.path: self.start + s * self.way})
 
     def return_map(self, s: float, like: State) -> tuple[ReturnMap, State]:
-        """Return map there, and a state to put vectors into, in the modes of another."""
+        """Return map of that engine, and a state for its vectors, in the modes of another."""
         engine = self.engine_at(s)
         state = prepare(engine)
         for name in ("mode", "armed"):
@@ -268,9 +267,16 @@ class _Follower:
         return ReturnMap.of(engine, state.copy(), FINE, self.mirrored), state
 
     def residual(self, s: float, z: np.ndarray, like: State) -> np.ndarray:
-        """Residual of the map: image of a vector less the vector."""
+        """Residual of the map: image of a vector less the vector.
+
+        What the map conserves is to be what the engine there is given.
+        """
         return_map, state = self.return_map(s, like)
-        return return_map.image(state, z) - z
+        z = with_sealed_charges(return_map, state, z)
+        residual = return_map.image(state, z) - z
+        for n, missing in missing_entropy(return_map, state, z).items():
+            residual[n] = missing
+        return residual
 
     def points(self, first: SteadyState) -> Iterator[Point]:
         """Points of the branch, the first steady state included."""
@@ -331,6 +337,7 @@ class _Follower:
         try:
             for count in range(MAX_CORRECTIONS):
                 return_map, state = self.return_map(u[-1], like)
+                u[:-1] = with_sealed_charges(return_map, state, u[:-1])
                 image = return_map.image(state, u[:-1])
                 after = return_map.state
                 if (after.chambers["mode"] != like.chambers["mode"]).any():
@@ -338,7 +345,7 @@ class _Follower:
                     like = self.settled(after, like)
                     u[:-1] = guess[:-1] = image
                     continue
-                residual = image - u[:-1]
+                residual = self.residual(u[-1], u[:-1], like)
                 matrix, jacobian = self.matrix(u, like, normal)
                 error = float(np.abs(residual).max())
                 if error < CONVERGED:
@@ -362,7 +369,7 @@ class _Follower:
         return None
 
     def settled(self, after: State, like: State) -> State:
-        """State to take modes from: the image, whose modes are those of the orbit itself."""
+        """The state before, with the modes of its image, which are those of the orbit itself."""
         kept = like.copy()
         for name in ("mode", "armed"):
             kept.chambers[name] = after.chambers[name]
@@ -377,7 +384,10 @@ class _Follower:
         jacobian = return_map.jacobian(state, z)
         low, high = max(s - 1e-5, 0.0), min(s + 1e-5, 1.0)  # neither may leave the allowed range
         by_parameter = self.residual(high, z, like) - self.residual(low, z, like)
-        top = np.column_stack([jacobian - np.eye(len(z)), by_parameter / (high - low)])
+        by_state = jacobian - np.eye(len(z))
+        for n, rates in missing_entropy_rates(return_map, state, z).items():
+            by_state[n] = rates
+        top = np.column_stack([by_state, by_parameter / (high - low)])
         return np.vstack([top, normal]), jacobian
 
     def point(self, s: float, z: np.ndarray, like: State, jacobian: np.ndarray) -> Point:
@@ -389,8 +399,6 @@ class _Follower:
         steady = result_of(
             return_map, 0, return_map.evaluations, cycle.missed, "continuation", FINE
         )
-        values = np.linalg.eigvals(jacobian)
-        values = values[np.argsort(-np.abs(values))]
         period = float(steady.strokes["duration"].sum())
-        stability = judged(values[np.abs(values) > 1e-6], self.mirrored, period)
+        stability = judged(own_multipliers(self.engine, jacobian), self.mirrored, period)
         return Point(float(self.start + s * self.way), state, z, stability, steady)

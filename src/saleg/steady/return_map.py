@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg.compiler import search
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.compiler.kernel import Kernel
 from saleg.engine import BounceChamber, Chamber, Engine
@@ -109,6 +110,7 @@ class ReturnMap:
     ----------
     engine : Engine
     kernel : Kernel
+        Of the search for fixed points.
     state : State
         The present state; every call moves it.
     mirrored : bool
@@ -156,7 +158,7 @@ class ReturnMap:
             history=np.zeros(0, layout.HISTORY_RECORD),
             filled=np.zeros(1, layout.FILLED_RECORD),
         )
-        compiled = compiled_engine(engine)
+        compiled = compiled_engine(engine, modules=search.modules())
         arguments = arguments_of(
             compiled,
             state,
@@ -165,13 +167,14 @@ class ReturnMap:
             options=options,
             tables=tables,
         )
+        searched = search.compiled_search(compiled.kernel, arguments)
         mapping = ReturnMapping(
-            integration=arguments,
-            address=compiled.kernel.address("run_on", (arguments,)),
+            integration=searched.integration,
+            address=searched.address,
             spare_chamber=np.zeros(1, layout.CHAMBER_RECORD),
             mirrored=mirrored,
         )
-        return cls(engine, compiled.kernel, state, mirrored, strokes, mapping, _iterates())
+        return cls(engine, searched.kernel, state, mirrored, strokes, mapping, _iterates())
 
     @property
     def snapshots(self) -> Snapshots:
@@ -204,7 +207,7 @@ class ReturnMap:
         return Search(int(code), *found[0].tolist())
 
     def jump(self, change: np.ndarray) -> None:
-        """Move the present state by a change of its vector, if that is long by a part of it."""
+        """Move the present state by a change of its vector; a long one is shortened."""
         z = self.vector(self.state)
         room = (FARTHEST * np.maximum(np.abs(z), 1.0) / np.maximum(np.abs(change), 1e-300)).min()
         read_vector(*self.state.records, self.state.y, z + min(room, 1.0) * change)
@@ -371,12 +374,15 @@ def is_symmetric(engine: Engine) -> bool:
     if all(vars(type(law)).get("mirrors") for law in _laws_of_motion(engine)):
         return True
     for x, v, direction, current in _probes(engine):
-        there = _forces(engine, Motion(0.0, x, v, direction, current))
-        mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
-        signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
-        for sign, a, b in zip(signs, there, mirrored, strict=True):
-            if abs(sign * a - b) > 1e-12 * abs(a):
-                return False
+        try:
+            there = _forces(engine, Motion(0.0, x, v, direction, current))
+            mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
+            signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
+            for sign, a, b in zip(signs, there, mirrored, strict=True):
+                if abs(sign * a - b) > 1e-12 * abs(a):
+                    return False
+        except Exception:  # a law that fails is named where the engine starts
+            return False
     return True
 
 

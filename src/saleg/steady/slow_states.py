@@ -7,15 +7,12 @@ charge's burnt gas may have an m next to one.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from saleg.kernel import layout
-from saleg.kernel.events import pressure_and_temperature
-from saleg.laws.base import GasProperties
 from saleg.simulation.initial_state import State
 from saleg.steady.return_map import NoReturn, ReturnMap, Search, conserved_entries, is_adiabatic
+from saleg.steady.sealed_gas import rise_of_theta
 from saleg.steady.stability import FINE
 
 #: Distance from the fixed point, in the numbers of order one a state is written in, within which a
@@ -115,31 +112,9 @@ def give_back_entropy(return_map: ReturnMap, begin: State, tolerance: float) -> 
     for side, chamber in enumerate(return_map.engine.chambers):
         if not is_adiabatic(chamber):
             continue
-        ends = [state_of_gas(state, side) for state in (begin, return_map.state)]
-        gained = entropy_rise(chamber.gas_properties, *ends)  # type: ignore[attr-defined]
-        if abs(gained) > tolerance:
-            gamma = chamber.gas_properties.gamma(ends[1][0])  # type: ignore[attr-defined]
-            return_map.state.y[layout.THETA + side] -= (gamma - 1.0) * gained
+        gas = chamber.gas_properties  # type: ignore[attr-defined]
+        rise = rise_of_theta(gas, begin, return_map.state, side)
+        if abs(rise) > tolerance:
+            return_map.state.y[layout.THETA + side] -= rise
             changed = True
     return changed
-
-
-def state_of_gas(state: State, side: int) -> tuple[float, float]:
-    """Temperature [K] and volume [m^3] of the gas in a closed chamber."""
-    _, C = state.records
-    p, T = pressure_and_temperature(C, side, state.y)
-    return float(T), float(C[side].mass * C[side].gas_constant * T / p)
-
-
-def entropy_rise(
-    gas: GasProperties, before: tuple[float, float], after: tuple[float, float]
-) -> float:
-    """Rise of the entropy of a charge from one temperature and volume to another, over m R [-]."""
-    (cold, small), (hot, large) = before, after
-    nodes, weights = np.polynomial.legendre.leggauss(16)
-    middle, half = 0.5 * math.log(hot * cold), 0.5 * math.log(hot / cold)
-    heat = sum(
-        weight / (gas.gamma(math.exp(middle + half * node)) - 1.0)
-        for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True)
-    )
-    return half * heat + math.log(large / small)

@@ -15,6 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
+from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import Chamber, CombustionChamber, Engine, check_engine, warn_of_unusual
 from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError
@@ -145,7 +146,7 @@ class SteadyState:
     @property
     def remarks(self) -> list[str]:
         """Figures of the cycle that no engine built comes near, as text; often none."""
-        return remarks_on(self.quick_performance)
+        return remarks_on(self.engine, self.quick_performance, self.strokes)
 
     @property
     def moving_mass(self) -> float:
@@ -265,6 +266,7 @@ def found_steady_state(
 def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> SteadyState:
     """Steady state of an engine whose numbers have been checked."""
     engine.check_laws()
+    check_methods(engine.laws.values())
     quick = effort is Effort.QUICK
     if not repeats_itself(engine):
         why = "a law depends on time or counts charges"
@@ -415,8 +417,8 @@ def not_found(engine: Engine, spent: int, evaluations: int, why: str) -> SteadyS
 
 def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
-    duration = FALLBACK_PERIODS * natural_period(engine)
-    run = integrate(engine, prepare(engine), Settings(duration, rtol=rtol))
+    start = prepare(engine)  # names a law that fails
+    run = integrate(engine, start, Settings(FALLBACK_PERIODS * natural_period(engine), rtol=rtol))
     steady = run.status in (Status.STEADY, Status.IDLING)
     strokes = run.orbit.strokes if steady and run.orbit is not None else None
     unsettled = run.status is Status.COMPLETED

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from saleg.engine import Engine
 from saleg.simulation.course import Replay
 from saleg.simulation.run import read_only
 from saleg.steady.return_map import NoReturn, ReturnMap, is_symmetric, sealed_entries
@@ -92,9 +93,14 @@ def map_multipliers(replay: Replay, mirrored: bool) -> np.ndarray:
     """Multipliers of the return map itself, the largest first [-]."""
     start = replay.start
     return_map = ReturnMap.of(replay.engine, start.copy(), FINE, mirrored)
-    values = np.linalg.eigvals(return_map.jacobian(start, return_map.vector(start)))
+    return own_multipliers(replay.engine, return_map.jacobian(start, return_map.vector(start)))
+
+
+def own_multipliers(engine: Engine, jacobian: np.ndarray) -> np.ndarray:
+    """Eigenvalues of the derivative of a return map, the largest first; none of what is kept."""
+    values = np.linalg.eigvals(jacobian)
     # The entropy that a sealed chamber keeps for ever is no instability: a multiplier of one each.
-    for _ in sealed_entries(replay.engine):
+    for _ in sealed_entries(engine):
         nearest = np.argmin(np.abs(values - 1.0))
         if abs(values[nearest] - 1.0) < CONSERVED:
             values = np.delete(values, nearest)

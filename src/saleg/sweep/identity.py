@@ -9,7 +9,6 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import inspect
-import marshal
 import sysconfig
 import types
 from collections.abc import Iterator
@@ -18,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from saleg.compiler.imported_text import NoSource, block_of, content
 from saleg.errors import SweepError
 
 #: Methods a dataclass writes by itself, told by its fields.
@@ -162,11 +162,11 @@ def _used(function: types.FunctionType) -> Iterator[tuple[str, Any]]:
 
 
 def _text(function: types.FunctionType) -> str:
-    """Text of a function; its byte code where it was typed into an interpreter."""
+    """Text of a function; what its code does where that was typed in, or edited since."""
     try:
-        return inspect.getsource(function)
-    except (OSError, TypeError):
-        return marshal.dumps(function.__code__).hex()
+        return block_of(function)
+    except NoSource:
+        return repr(content(function.__code__))
 
 
 def _is_ours(code: Any) -> bool:

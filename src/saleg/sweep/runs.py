@@ -142,9 +142,10 @@ def load(folder: str | Path) -> pd.DataFrame:
     SweepError
         If there is none, or it is damaged.
     """
-    if not Folder(_path(folder)).finished:
+    kept = Folder(_path(folder))
+    if not kept.finished:
         raise SweepError(f"{folder} holds no finished sweep; run it again to finish it")
-    return Folder(Path(folder)).table()
+    return kept.table()
 
 
 def _path(folder: Any) -> Path:

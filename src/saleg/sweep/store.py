@@ -22,7 +22,7 @@ from saleg.batch.table import Columns, kind_of
 from saleg.errors import SweepError
 from saleg.files.atomic import write_text
 from saleg.files.lock import locked
-from saleg.files.reading import is_folder, named
+from saleg.files.reading import decoded, is_folder, named
 from saleg.files.tables import DamagedTable, labelled, read_table, write_table
 
 if TYPE_CHECKING:
@@ -72,21 +72,23 @@ class Folder:
         """
         with _writing(self.path):
             if self.path.is_dir():
-                self._refuse_strangers(table_text(points))
+                # Another process may be beginning: it makes the lock before all else.
+                self._refuse_strangers(table_text(points), DESCRIPTION, LOCK)
             self.path.mkdir(parents=True, exist_ok=True)
             with open(self.path / LOCK, "ab"):
                 pass
         with locked(self.path / LOCK):
+            self._refuse_strangers(table_text(points), DESCRIPTION)
             self._claim(json.loads(json.dumps(identity)), points, begun_by)
             yield
 
-    def _refuse_strangers(self, points: str) -> None:
-        """A folder without a description may hold what an interrupted start left, nothing else."""
+    def _refuse_strangers(self, points: str, *signs: str) -> None:
+        """Refuse a folder with more in it than an interrupted start left, and none of these."""
         for entry in self.path.iterdir():
             ours = entry.name == LOCK or entry.name.startswith((f".{DESCRIPTION}", f".{POINTS}"))
             if entry.name == POINTS:
                 ours = _read(entry) == points
-            if not ours and not (self.path / DESCRIPTION).exists():
+            if not ours and not any((self.path / sign).exists() for sign in signs):
                 raise SweepError(
                     f"{self.path} is no folder of a sweep: it holds {entry.name}; name another "
                     "folder"
@@ -198,9 +200,9 @@ def _read(path: Path) -> str:
     with named(path, SweepError):
         content = path.read_bytes()
     try:
-        return content.decode("utf-8")
-    except ValueError:
-        raise SweepError(f"{path} is damaged: it is no text") from None
+        return decoded(content)
+    except ValueError as error:
+        raise SweepError(f"{path} is damaged: {error}") from None
 
 
 def read_description(folder: Path) -> dict[str, Any]:

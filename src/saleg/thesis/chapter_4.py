@@ -18,7 +18,9 @@ import numpy as np
 
 from saleg import sweep
 from saleg.design import Design, evaluate_many
+from saleg.errors import nearest
 from saleg.plotting import sweeps
+from saleg.sweep import SweepError
 from saleg.thesis.tables import columns
 
 if TYPE_CHECKING:
@@ -51,7 +53,7 @@ INPUTS = {
     "egr": "egr",
 }
 #: Figures compared, as a table of designs has them and as Tables 9 to 12 call them.
-FIGURES = {
+PRINTED_AS = {
     "stroke": "stroke",
     "compression_ratio": "compression_ratio",
     "frequency": "frequency",
@@ -78,7 +80,14 @@ def sweep_along(name: str, count: int = 61) -> pd.DataFrame:
     -------
     DataFrame
         As :func:`saleg.sweep.run` gives it.
+
+    Raises
+    ------
+    SweepError
+        If the chapter has no such sweep.
     """
+    if name not in SWEEPS:
+        raise SweepError(f"no sweep of Chapter 4 along {name!r}{nearest(name, SWEEPS)}")
     return sweep.run(sweep.grid({name: np.linspace(*SWEEPS[name], count).tolist()}))
 
 
@@ -152,8 +161,8 @@ def deviations(number: int = 9, design: Design | None = None) -> pd.DataFrame:
     DataFrame
         One row per design, one column per figure.
     """
-    ours = run(number, design)[list(FIGURES)]
-    theirs = printed(number)[list(FIGURES.values())].set_axis(list(FIGURES), axis=1)
+    ours = run(number, design)[list(PRINTED_AS)]
+    theirs = printed(number)[list(PRINTED_AS.values())].set_axis(list(PRINTED_AS), axis=1)
     return ours.div(theirs).sub(1.0)
 
 

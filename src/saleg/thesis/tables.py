@@ -8,8 +8,9 @@ CSV file per table; here they are read, and turned into SI.
 from __future__ import annotations
 
 import csv
+import io
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
 from saleg.errors import SalegError
 
@@ -88,7 +89,8 @@ def table(number: int) -> pd.DataFrame:
     """
     import pandas as pd
 
-    return pd.read_csv(_path(number))
+    with _opened(number) as file:
+        return pd.read_csv(file)
 
 
 def columns(number: int) -> dict[str, dict[str, float]]:
@@ -154,14 +156,16 @@ class NoTable(SalegError, ValueError):
     """A table the dissertation prints no numbers in, or does not have."""
 
 
-def _path(number: int) -> str:
+def _opened(number: int) -> TextIO:
+    """A file of the package, wherever it is installed, a zip file included."""
     if number not in FILES:
         raise NoTable(f"no Table {number!r} here; there are {', '.join(map(str, FILES))}")
-    return str(files("saleg.thesis").joinpath("data", FILES[number]))
+    file = files("saleg.thesis").joinpath("data", FILES[number])
+    return io.TextIOWrapper(file.open("rb"), encoding="utf-8", newline="")
 
 
 def _rows(number: int) -> list[dict[str, str]]:
-    with open(_path(number), newline="", encoding="utf-8") as file:
+    with _opened(number) as file:
         return list(csv.DictReader(file))
 
 

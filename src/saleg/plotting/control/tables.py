@@ -166,7 +166,7 @@ def survival(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
 def _motored(
     table: pd.DataFrame, x: str, other: str, ax: Sequence[Axes] | np.ndarray | None
 ) -> np.ndarray:
-    """Both panels of Figures 94 and 95."""
+    """Compression ratio and power of motored starts, as in Figures 94 and 95."""
     panels = panels_or_new(ax, (2, 1), 6.4, 5.4, sharex=True)
     ordered = table.sort_values(x)
     ordered.attrs = table.attrs

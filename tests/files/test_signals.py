@@ -1,0 +1,71 @@
+"""What SIGTERM and Ctrl-C leave of files that are being written: nothing."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from saleg.files.atomic import new_file, new_folder
+from saleg.files.signals import ending_in_order, held_off
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+
+
+def terminated_while_writing(place, target):
+    with place(target) as temporary:
+        file = temporary / "part" if temporary.is_dir() else temporary
+        file.write_text("half")
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(5.0)
+
+
+@pytest.mark.parametrize("place", [new_file, new_folder])
+def test_what_is_half_written_is_removed_on_sigterm(tmp_path, place):
+    with pytest.raises(SystemExit) as ended:
+        terminated_while_writing(place, tmp_path / "above" / "run")
+    assert ended.value.code == 128 + signal.SIGTERM
+    assert list(tmp_path.iterdir()) == []
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+
+
+def test_a_handler_of_the_users_own_is_left_alone():
+    came = []
+    before = signal.signal(signal.SIGTERM, lambda number, _: came.append(number))
+    try:
+        with ending_in_order():
+            os.kill(os.getpid(), signal.SIGTERM)
+        assert came == [signal.SIGTERM]
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+@pytest.mark.parametrize(
+    ("number", "end"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)]
+)
+def test_signals_come_after_the_moment_they_are_held_off(number, end):
+    done = []
+
+    def work():
+        with ending_in_order(), held_off():
+            os.kill(os.getpid(), number)
+            done.append(True)
+
+    with pytest.raises(end):
+        work()
+    assert done
+
+
+def test_a_terminated_command_leaves_nothing(tmp_path):
+    command = ["run", "thesis-base", "--duration", "1e6", "--out", str(tmp_path / "out")]
+    process = subprocess.Popen([sys.executable, "-m", "saleg", *command])
+    patience = time.monotonic() + 60.0
+    while not list(tmp_path.iterdir()) and time.monotonic() < patience:
+        time.sleep(0.05)
+    assert list(tmp_path.iterdir())
+    time.sleep(0.5)
+    process.terminate()
+    assert process.wait(60.0) == 128 + signal.SIGTERM
+    assert list(tmp_path.iterdir()) == []
