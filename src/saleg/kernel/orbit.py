@@ -1,7 +1,7 @@
 """The return map from dead centre to dead centre, and its fixed points.
 
-What an engine will do is settled by its state at a dead centre: after it has turned, before a charge
-is renewed or lit there, which belongs to the stroke that begins. Written as a vector of
+What an engine will do is settled by its state at a dead centre: after it has turned, before a
+charge is renewed or lit there, which belongs to the stroke that begins. Written as a vector of
 dimensionless numbers it can be compared, extrapolated and put back. A mirrored engine repeats
 itself, seen in the mirror, after half a cycle.
 """
@@ -25,7 +25,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.run_plainly import run_at
-from saleg.kernel.state import begin_stroke, clearance_of, copy_row, keep_snapshot
+from saleg.kernel.state import begin_stroke, copy_row, keep_snapshot
 
 # What do_orbit is asked for.
 FIND = 0

@@ -54,8 +54,8 @@ from saleg.kernel.slots import (
 from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Charge, Gas, Motion
 
-# How near a breakpoint counts as reached, over the half stroke or the duration of the combustion, and
-# how far beside it is beyond it.
+# How near a breakpoint counts as reached, over the half stroke or the duration of the combustion,
+# and how far beside it is beyond it.
 AT_BREAKPOINT = 1e-9
 ONE_SIDE = 1e-15
 
