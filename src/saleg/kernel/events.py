@@ -7,6 +7,7 @@ from saleg.kernel.layout import (
     BREAKPOINT,
     BURNING,
     CLOSED,
+    CORNER,
     DEAD_CENTRE,
     DISARMED,
     G0,
@@ -17,7 +18,6 @@ from saleg.kernel.layout import (
     N_EVENTS,
     OPEN,
     PORT,
-    POSITION,
     THETA,
     V,
     X,
@@ -35,7 +35,7 @@ def event_is_possible(E, C, event):
     """
     if event == DEAD_CENTRE:
         return E.direction != 0.0
-    if event == POSITION:
+    if event == CORNER:
         return E.direction != 0.0 and isfinite(E.x_breakpoint)
     side = event % 2
     c = C[side]
@@ -54,7 +54,7 @@ def event_value(E, C, event, y):
     """A number that is negative before the event and positive after it."""
     if event == DEAD_CENTRE:
         return -E.direction * y[V]
-    if event == POSITION:
+    if event == CORNER:
         return E.direction * (y[X] - E.x_breakpoint)
     side = event % 2
     c = C[side]
@@ -73,7 +73,7 @@ def event_rate(E, C, event, y, dy):
     """Time derivative of :func:`event_value`."""
     if event == DEAD_CENTRE:
         return -E.direction * dy[V]
-    if event == POSITION:
+    if event == CORNER:
         return E.direction * y[V]
     side = event % 2
     c = C[side]
@@ -90,7 +90,7 @@ def event_rate(E, C, event, y, dy):
 @inline
 def place_of(E, C, event):
     """Position of a port, or of the next breakpoint of a force [m]."""
-    if event == POSITION:
+    if event == CORNER:
         return E.x_breakpoint
     c = C[event - PORT]
     return c.sign * (c.port - c.half_stroke)
@@ -101,7 +101,7 @@ def land(E, C, event, y):
     """Put the state exactly on the event it was located at."""
     if event == DEAD_CENTRE:
         y[V] = 0.0
-    elif event == POSITION:
+    elif event == CORNER:
         y[X] = E.x_breakpoint
     elif event < LIGHT:
         y[X] = place_of(E, C, event)
@@ -239,7 +239,7 @@ def expected_event(E, C, y, dy):
         s -= (v + s * (a + 0.5 * s * jerk)) / (a + s * jerk)
         if least < s < earliest:
             first, earliest = DEAD_CENTRE, s
-    for event in (POSITION, PORT, PORT + 1):
+    for event in (CORNER, PORT, PORT + 1):
         if v == 0.0 or not event_is_possible(E, C, event):
             continue
         way = place_of(E, C, event) - y[X]

@@ -72,7 +72,7 @@ MAX_STEPS = 1_000_000.0
 
 # Events, in the order they are looked for; from PORT on one per side, even for the left.
 DEAD_CENTRE = 0
-POSITION = 1
+CORNER = 1
 PORT = 2
 LIGHT = 4
 BREAKPOINT = 6

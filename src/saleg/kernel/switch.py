@@ -12,6 +12,7 @@ from saleg.kernel.layout import (
     BURNING,
     CLOSED,
     COMPILED,
+    CORNER,
     DEAD_CENTRE,
     DISARMED,
     ELECTRICAL_ENERGY,
@@ -45,7 +46,6 @@ from saleg.kernel.layout import (
     PEAK_TEMPERATURE,
     PEAK_VELOCITY,
     PORT_WORK,
-    POSITION,
     RIGHT,
     SPEED_SQUARED,
     THETA,
@@ -410,7 +410,7 @@ def switch(P, E, C, O, y, landed, peaks, tables, control):
     Chambers change first, one after the other, then the translator turns. What is due in a chamber
     because it has turned belongs to the stroke that begins and waits for the next call.
     """
-    changed = change_chambers(P, E, C, O, y, tables) or landed == POSITION
+    changed = change_chambers(P, E, C, O, y, tables) or landed == CORNER
     for side in range(2):
         if C[side].mode == BURNING and E.t >= C[side].t_breakpoint:
             changed = True

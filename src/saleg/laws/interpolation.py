@@ -30,12 +30,12 @@ def share(x: float, grid: Sequence[float], i: int) -> float:
 
 def next_point(x: float, direction: float, points: Sequence[float]) -> float:
     """Nearest point beyond x on the way up (`direction` 1) or down (-1); infinite if none is."""
-    nearest = math.inf
+    found, nearest = direction * math.inf, math.inf
     for i in range(len(points)):
         way = direction * (points[i] - x)
         if 0.0 < way < nearest:
-            nearest = way
-    return x + direction * nearest
+            found, nearest = points[i], way
+    return found
 
 
 def linear(x: float, grid: Sequence[float], values: Sequence[float]) -> float:
