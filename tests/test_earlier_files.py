@@ -47,7 +47,7 @@ def test_sweep_folders_go_on(name, points, swept, tmp_path, monkeypatch):
     def unwanted(*_, **__):
         raise AssertionError("a point that stands in the folder is solved again")
 
-    subject = sweep.subjects.subject_of(swept)
+    subject = saleg.design.subjects.subject_of(swept)
     for kind in (type(subject),):
         monkeypatch.setattr(kind, "solver", lambda *_: unwanted)
     table = sweep.run(sweep.grid(points), swept, folder=folder)

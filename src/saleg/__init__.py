@@ -76,6 +76,7 @@ LAZY = (
     "design",
     "export",
     "fundamental",
+    "optimize",
     "plotting",
     "reference",
     "sensitivity",

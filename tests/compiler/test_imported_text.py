@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from saleg.sweep.identity import code_hash
 
 import saleg
 from helpers import compiled_method
@@ -17,7 +18,6 @@ from saleg.compiler.controllers import control_of
 from saleg.compiler.imported_text import NoSource, block_of, found_text
 from saleg.laws import LinearSprings, Motion
 from saleg.laws.control.base import FuelControl
-from saleg.sweep.identity import code_hash
 
 MOTION = Motion(0.0, 0.02, 3.0, 1.0)
 LAW = """\

@@ -350,7 +350,7 @@ def test_score_knows_unstable_orbits_and_engines_that_deliver_nothing():
         ({"least_compression_ratio": 40.0}, "must be >= 40"),
         (
             {"efficiency": 0.0, "stability": 0.0, "compression_ratio": 0.0, "peak_pressure": 0.0},
-            "one of the four weights",
+            "one of the weights",
         ),
     ],
 )

@@ -1,4 +1,4 @@
-"""Command line: ``saleg run``, ``steady``, ``list``, ``fundamental``, ``sweep``, ``control``."""
+"""Command line: ``saleg run``, ``steady``, ``list``, ``sweep``, ``optimize`` and others."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 
-from saleg.cli import control, fundamental, listing, run, steady, sweep
+from saleg.cli import control, fundamental, listing, optimize, run, steady, sweep
 from saleg.errors import SalegError
 from saleg.files.signals import ending_in_order
 from saleg.version import __version__
@@ -70,6 +70,7 @@ def _parser() -> argparse.ArgumentParser:
     listing.add_to(commands)
     fundamental.add_to(commands)
     sweep.add_to(commands)
+    optimize.add_to(commands)
     control.add_to(commands)
     return parser
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from saleg.batch.workers import WorkersError, end_with_parent
+from saleg.cli.workers import add_workers, executor_of
 from saleg.files.reading import expanded
 
 if TYPE_CHECKING:
@@ -20,8 +19,7 @@ def add_to(commands: Any) -> None:
     add = parser.add_argument
     add("file", type=expanded, metavar="FILE.toml", help="what to sweep; see docs/sweeps.md")
     add("--out", type=expanded, metavar="DIR", help="folder of the results (FILE without .toml)")
-    add("--workers", type=int, metavar="N", help="how many work at once (all processors)")
-    add("--processes", action="store_true", help="work in processes, not threads")
+    add_workers(parser)
     parser.set_defaults(command=sweep)
 
 
@@ -30,11 +28,9 @@ def sweep(options: argparse.Namespace) -> bool:
     from saleg.sweep import run
     from saleg.sweep.files import read
 
-    if options.workers is not None and options.workers < 1:
-        raise WorkersError(f"--workers {options.workers}: must be at least 1")
     asked = read(options.file)
     folder = options.out or options.file.with_suffix("")
-    with _executor(options) as pool:
+    with executor_of(options) as pool:
         table = run(
             asked.points,
             asked.swept,
@@ -50,16 +46,6 @@ def sweep(options: argparse.Namespace) -> bool:
     names = ["results.csv", *_pictures(table, folder)]
     print(f"wrote {folder}: {', '.join(names)}")
     return bool((table["status"] == "steady").all())
-
-
-def _executor(options: argparse.Namespace) -> Any:
-    """Processes if asked for; threads of this process are the sweep's own affair."""
-    if not options.processes:
-        return nullcontext()
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
-
-    return ProcessPoolExecutor(options.workers, get_context("spawn"), end_with_parent)
 
 
 def _complain(table: pd.DataFrame) -> None:

@@ -32,7 +32,8 @@ from saleg.design.masses import (
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
 from saleg.design.results import DesignedState
-from saleg.design.score import InvalidScore, Score
+from saleg.design.score import Score
+from saleg.design.terms import InvalidScore
 
 __all__ = [
     "AirSprings",

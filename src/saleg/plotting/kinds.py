@@ -49,14 +49,25 @@ def kinds(table: pd.DataFrame) -> list[tuple[Kind, np.ndarray]]:
     """Kinds of points with the rows of each."""
     status = table["status"].to_numpy()
     steady = status == str(Status.STEADY)
-    stable = table["stable"].to_numpy(dtype=bool) if "stable" in table else steady
+    stable = table["stable"].to_numpy(dtype=bool) if "stable" in table else ~steady
+    known = _examined(table)
     unsteady = status == str(Status.UNSTEADY)
     return [
-        (STABLE if "stable" in table else ORBIT, steady & stable),
-        (UNSTABLE, steady & ~stable),
+        (STABLE, steady & known & stable),
+        (ORBIT, steady & ~known),
+        (UNSTABLE, steady & known & ~stable),
         (UNSTEADY, unsteady),
         (NO_FIGURES, ~steady & ~unsteady),
     ]
+
+
+def _examined(table: pd.DataFrame) -> np.ndarray:
+    """Rows whose stability is known: none without multipliers, of an optimisation its leaders."""
+    if "stable" not in table:
+        return np.zeros(len(table), bool)
+    if "verified" in table:
+        return table["verified"].to_numpy(dtype=bool)
+    return np.ones(len(table), bool)
 
 
 def draw_kind(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind: Kind) -> None:

@@ -1,10 +1,10 @@
-"""``run.plot``: the figures of a run under their names."""
+"""``run.plot`` and its like: figures of a result under their names."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from types import MethodType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from saleg.errors import nearest
 from saleg.plotting.control.timelines import controlled
@@ -24,9 +24,6 @@ from saleg.plotting.translator import (
     power,
     velocity_position,
 )
-
-if TYPE_CHECKING:
-    from saleg.simulation.run import Run
 
 #: All figures of a run by name.
 FIGURES: dict[str, Callable[..., Any]] = {
@@ -49,27 +46,39 @@ FIGURES: dict[str, Callable[..., Any]] = {
 
 
 class Plots:
-    """The figures of a run: ``run.plot.pressure_volume()`` and so on; ``dir`` lists them.
+    """Figures of a result: ``run.plot.pressure_volume()`` and so on; ``dir`` lists them.
 
     Each returns its axes, ``ax``; ``ax.figure.savefig("name.png")`` saves the picture, and
     ``ax.figure`` at the end of a notebook's cell shows it.
 
     Parameters
     ----------
-    run : Run
+    result : Run or another result
+        What each figure is drawn of.
+    figures : mapping
+        Functions by name, each with the result as its first parameter.
+    kind : str
+        What the result is, in words.
     """
 
-    def __init__(self, run: Run):
-        self._run = run
+    def __init__(
+        self,
+        result: Any,
+        figures: Mapping[str, Callable[..., Any]] = FIGURES,
+        kind: str = "a run",
+    ):
+        self._result, self._figures, self._kind = result, figures, kind
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
-        if name in FIGURES:
-            return MethodType(FIGURES[name], self._run)
-        hint = "" if name.startswith("_") else nearest(name, FIGURES)
-        raise AttributeError(f"no figure {name!r}{hint or '; there are ' + ', '.join(FIGURES)}")
+        if name.startswith("_"):  # also before __init__, as copy and pickle ask
+            raise AttributeError(name)
+        if name in self._figures:
+            return MethodType(self._figures[name], self._result)
+        hint = nearest(name, self._figures) or "; there are " + ", ".join(self._figures)
+        raise AttributeError(f"no figure {name!r}{hint}")
 
     def __dir__(self) -> list[str]:
-        return list(FIGURES)
+        return list(self._figures)
 
     def __repr__(self) -> str:
-        return "figures of a run: " + ", ".join(FIGURES)
+        return f"figures of {self._kind}: " + ", ".join(self._figures)

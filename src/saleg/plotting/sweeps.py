@@ -238,8 +238,9 @@ def _cloud(
 def _count(table: pd.DataFrame) -> str:
     """Number of designs with a stable orbit, or with any where stability was not asked for."""
     orbits = _orbits(table)
-    if "stable" not in table:
-        return f"{len(orbits)} of {len(table)} designs have an orbit, stability not examined"
+    if "stable" not in table or "verified" in table:
+        few = " of all but the best" if "verified" in table else ""
+        return f"{len(orbits)} of {len(table)} designs have an orbit, stability{few} not examined"
     return (
         f"{int(orbits['stable'].sum())} stable of {len(table)} designs, {len(orbits)} with an orbit"
     )

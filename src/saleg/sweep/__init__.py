@@ -10,11 +10,11 @@ True
 'W/kg'
 """
 
+from saleg.design.subjects import DesignSubject, EngineSubject, Subject
 from saleg.errors import SweepError
 from saleg.sweep.points import grid, latin_hypercube, listed, sobol
 from saleg.sweep.runs import load, run
 from saleg.sweep.sobol_indices import Indices, NoIndices, indices, saltelli_points
-from saleg.sweep.subjects import DesignSubject, EngineSubject, Subject
 
 __all__ = [
     "DesignSubject",

@@ -31,13 +31,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.design.designs import Design
+from saleg.design.subjects import subject_of
+from saleg.design.toml_tables import (
+    WrongTable,
+    base_of,
+    fixed_of,
+    refuse_dotted,
+    refuse_unknown,
+    table_of,
+    with_fixed,
+)
 from saleg.engine import Engine
 from saleg.engine.toml import parsed
-from saleg.errors import SweepError, nearest
-from saleg.machines import CATALOGUE
+from saleg.errors import SweepError
 from saleg.quantities import is_number
 from saleg.sweep.points import grid, latin_hypercube, listed, refuse_too_many, sobol
-from saleg.sweep.subjects import subject_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -96,45 +104,24 @@ def read(path: str | Path) -> SweepFile:
     """
     tables = parsed(path)
     try:
-        _known(tables, ["sweep", "fixed", *KINDS], "")
-        settings = _table(tables, "sweep")
-        _known(settings, ["machine", *SETTINGS], "sweep.")
+        refuse_unknown(tables, ["sweep", "fixed", *KINDS])
+        settings = table_of(tables, "sweep")
+        refuse_unknown(settings, ["machine", *SETTINGS], "sweep.")
         kinds = [kind for kind in KINDS if kind in tables]
         if len(kinds) != 1:
             given = " and ".join(f"[{kind}]" for kind in kinds) or "none"
             wanted = ", ".join(f"[{kind}]" for kind in KINDS)
             raise SweepError(f"needs one of {wanted}, and no more; has {given}")
-        points = KINDS[kinds[0]](_table(tables, kinds[0]))
-        fixed = _fixed(tables)
+        points = KINDS[kinds[0]](table_of(tables, kinds[0]))
+        fixed = fixed_of(tables)
         both = [name for name in points if name in fixed]
         if both:
             raise SweepError(f"{both[0]} stands in [fixed] and in [{kinds[0]}]: remove one")
-        base = _base(settings)
+        base = base_of(settings)
         subject_of(base).refuse_clash([*fixed, *points])
-        swept = base.replace(fixed) if isinstance(base, Design) else base.replace(**fixed)
-        return SweepFile(points, swept, _settings(settings))
-    except SweepError as error:
+        return SweepFile(points, with_fixed(base, fixed), _settings(settings))
+    except (SweepError, WrongTable) as error:
         raise SweepError(f"{path}: {error}") from None
-
-
-def _base(settings: Mapping[str, Any]) -> Design | Engine:
-    """The machine named, or the designs of Chapter 4."""
-    if "machine" not in settings:
-        return Design()
-    name = settings["machine"]
-    if not isinstance(name, str) or name not in CATALOGUE:
-        raise SweepError(f"no machine {name!r}{nearest(str(name), CATALOGUE)}")
-    return CATALOGUE[name]()
-
-
-def _fixed(tables: Mapping[str, Any]) -> dict[str, float]:
-    """Values of [fixed] by name."""
-    given = _table(tables, "fixed")
-    _refuse_dotted(given)
-    wrong = [name for name, value in given.items() if not is_number(value)]
-    if wrong:
-        raise SweepError(f"fixed.{wrong[0]} = {given[wrong[0]]!r}: must be a number")
-    return {name: float(value) for name, value in given.items()}
 
 
 def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -148,21 +135,13 @@ def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _grid(table: Mapping[str, Any]) -> pd.DataFrame:
-    _refuse_dotted(table)
+    refuse_dotted(table, SPAN)
     return grid({name: _values(name, held) for name, held in table.items()})
 
 
 def _listed(table: Mapping[str, Any]) -> pd.DataFrame:
-    _refuse_dotted(table)
+    refuse_dotted(table)
     return listed(table)
-
-
-def _refuse_dotted(table: Mapping[str, Any]) -> None:
-    """A dotted key without quotes is a table within a table."""
-    for name, held in table.items():
-        if isinstance(held, dict) and held and not set(held) & SPAN:
-            path = f"{name}.{next(iter(held))}"
-            raise SweepError(f'{path}: a dotted name must be quoted: "{path}" = ...')
 
 
 def _values(name: str, held: Any) -> Any:
@@ -182,9 +161,9 @@ def _random(
     make: Callable[..., pd.DataFrame],
 ) -> Callable[[Mapping[str, Any]], pd.DataFrame]:
     def points(table: Mapping[str, Any]) -> pd.DataFrame:
-        _known(table, RANDOM, "")
-        _refuse_dotted(_table(table, "ranges"))
-        return make(_table(table, "ranges"), table.get("count"), table.get("seed", 0))
+        refuse_unknown(table, RANDOM)
+        refuse_dotted(table_of(table, "ranges"))
+        return make(table_of(table, "ranges"), table.get("count"), table.get("seed", 0))
 
     return points
 
@@ -196,17 +175,3 @@ KINDS: dict[str, Callable[[Mapping[str, Any]], Any]] = {
     "latin_hypercube": _random(latin_hypercube),
     "sobol": _random(sobol),
 }
-
-
-def _table(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
-    held = tables.get(name, {})
-    if not isinstance(held, dict):
-        raise SweepError(f"{name} = {held!r}: must be a table")
-    return held
-
-
-def _known(table: Mapping[str, Any], known: Any, where: str) -> None:
-    for key in table:
-        if key not in known:
-            hint = nearest(key, known) or f"; there are {', '.join(known)}"
-            raise SweepError(f"{where}{key}: unknown key{hint}")

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 from saleg.batch.points import Evaluation
 from saleg.batch.table import CHUNK, Columns
 from saleg.design.designs import Design
+from saleg.design.subjects import Subject, subject_of
 from saleg.engine import Engine
 from saleg.errors import SweepError
 from saleg.files.reading import as_path, is_folder
 from saleg.simulation.settings import check_flag
 from saleg.steady.solver import DEFAULT_TOLERANCE, Effort, check_effort, check_tolerance
 from saleg.sweep.store import Folder
-from saleg.sweep.subjects import Subject, subject_of
 from saleg.version import __version__
 
 if TYPE_CHECKING:

@@ -107,7 +107,7 @@ def _value(value: Any, name: str) -> Any:
 def _unknown(name: str, value: Any) -> SweepError:
     return SweepError(
         f"{name} is a {type(value).__name__}: a folder could not tell when it changes; make it a "
-        "dataclass of numbers, text and arrays, or sweep without a folder"
+        "dataclass of numbers, text and arrays, or work without a folder"
     )
 
 

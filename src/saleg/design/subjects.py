@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from typing import Any, Protocol
 
+from saleg.batch.identity import described, own_code
 from saleg.batch.many import STABILITY_UNITS, steady_row
 from saleg.batch.points import Evaluated, Solver, Values, refuse_parts
 from saleg.batch.table import Row
@@ -17,7 +18,6 @@ from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import SweepError, UnknownPath
 from saleg.steady.solver import Effort, found_steady_state
-from saleg.sweep.identity import described, own_code
 
 
 class Subject(Evaluated, Protocol):
