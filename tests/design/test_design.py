@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import saleg
-from saleg import Status, sweep
+from saleg import Status, laws, sweep
 from saleg.design import (
     AirSprings,
     Design,
@@ -90,6 +90,14 @@ def test_the_loop_costs_at_most_twice_a_plain_steady_state():
     ]
     plain = saleg.steady_states(engines)
     assert table.half_cycles.sum() <= 1.4 * plain.half_cycles.sum()
+
+
+@pytest.mark.parametrize("law", [laws.DoubleWiebe(), laws.BurnProfile()], ids=["double", "table"])
+def test_the_loop_closes_with_a_burn_rate_that_is_not_smooth(law):
+    found = saleg.design.solve(Design().replace({"heat_release": law}))
+    assert found.method == "fixed point", found.message
+    assert found.half_cycles <= 20
+    assert abs(found.mass_error) < 1e-6
 
 
 def test_a_neighbour_is_a_start(base_design):

@@ -303,3 +303,25 @@ def test_a_start_through_the_midpoint(base):
     check = reference.simulate(engine, 0.1, rtol=1e-11, jitted=True)
     np.testing.assert_array_equal(run.event_rows["kind"], check.event_rows["kind"])
     assert_rows_agree(run.strokes, check.strokes, 1e-6, but=ORBIT_ONLY)
+
+
+def test_the_cycle_of_a_steady_state_has_its_first_instant_too():
+    """What happens at its first dead centre counts: charge renewal and instant release."""
+    load = 0.814
+    system = base_like(fm.ConstantLoad(load))
+    depth = max(equilibrium.depth for equilibrium in fm.equilibria(system))
+    found = saleg.steady_state(fm.to_engine(system))
+    work = 2.0 * (2.0 * depth) * load  # a constant force along two strokes
+    efficiency = found.engine.alternator.efficiency * work / (2.0 * system.heat)
+    assert found.found
+    assert found.performance.efficiency == pytest.approx(efficiency, rel=AGREEMENT)
+    assert abs(found.energy.residual) < 1e-6 * found.energy.released
+    np.testing.assert_allclose(found.strokes["heat_released"].max(axis=1), found.energy.fuel / 2)
+    np.testing.assert_allclose(found.strokes["heat_released"], found.orbit.strokes["heat_released"])
+
+
+def test_a_law_sees_the_fuel_of_a_charge_renewed_at_a_dead_centre():
+    engine = fm.to_engine(base_like(fm.ConstantLoad(0.814)))
+    found = saleg.steady_state(engine.replace(friction=laws.FrictionShare(share=0.02, initial=5.0)))
+    assert found.method == "fixed point"
+    assert found.energy.friction == pytest.approx(0.02 * found.energy.fuel, rel=1e-5)

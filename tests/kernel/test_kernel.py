@@ -7,6 +7,7 @@ import pytest
 
 import saleg
 from helpers import area, bounce_engine, cycle_figures, strokes_from_start
+from saleg import laws
 from saleg.engine.start import CompressedCharge, MidpointVelocity
 from saleg.kernel.tableaus import ADAPTIVE, FIXED_STEP
 from saleg.simulation.performance import EnergyBalance
@@ -39,6 +40,22 @@ def observed_order(engine, order, converged):
 def test_order_of_convergence_across_events(base, converged, order):
     """A whole cycle with ignition, end of combustion, ports and dead centres."""
     assert observed_order(base, order, converged) == pytest.approx(order, abs=0.2)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        {"heat_release": laws.DoubleWiebe(diffusion_shape=2.0)},
+        {"springs": laws.PreloadedSprings(preload=500.0)},
+    ],
+    ids=["burn rate that jumps", "springs that lift off"],
+)
+def test_order_of_convergence_across_breakpoints(base, law):
+    engine = base.replace(**law)
+    exact = cycle_figures(engine, method="fixed", order=8, step=5e-6)
+    assert observed_order(engine, 4, exact) == pytest.approx(4, abs=0.2)
+    assert cycle_figures(engine, rtol=1e-12) == pytest.approx(exact, rel=1e-11)
+    assert residual(engine, 6, rtol=1e-11) < 1e-9
 
 
 def test_order_eight_is_genuine(base, converged):

@@ -106,6 +106,10 @@ def arguments(law, method):
     if method == "force":
         memory = () if law.slot == "springs" else (1.05,)
         return [(*memory, motion) for motion in MOTIONS]
+    if method == "next_breakpoint":
+        if law.slot == "heat_release":
+            return [(u,) for u in (-1e-9, 0.0, 0.3, 0.5, 1.0)]
+        return [(x, direction) for x in (-0.1, 0.0, 0.02, 0.1) for direction in (1.0, -1.0)]
     return ARGUMENTS[method]
 
 
@@ -114,6 +118,42 @@ CASES = [
     for law in LAWS
     for method in law.compiled
 ]
+
+
+@pytest.mark.parametrize(
+    ("law", "expected"),
+    [
+        (laws.DoubleWiebe(premixed_end=0.4, diffusion_start=0.1), [0.1, 0.4]),
+        (laws.DoubleWiebe(), [0.3]),
+        (laws.BurnProfile(times=(0.0, 0.2, 1.0), fractions=(0.0, 0.5, 1.0)), [0.0, 0.2]),
+        (laws.Wiebe(), []),
+    ],
+)
+def test_breakpoints_of_burn_rates(law, expected):
+    found, u = [], -1e-9
+    while (u := law.next_breakpoint(u)) < 1.0:
+        found.append(u)
+    assert found == expected
+
+
+@pytest.mark.parametrize(
+    ("law", "expected"),
+    [
+        (laws.ProgressiveSprings((0.0, 0.05), (3e4, 4e4)), [-0.05, 0.0, 0.05]),
+        (laws.PreloadedSprings(stiffness=2e4, preload=1e3), [-0.05, 0.05]),
+        (laws.PreloadedSprings(stiffness=0.0), []),
+        (laws.EndStops(gap=0.09), [-0.09, 0.09]),
+        (laws.ForceMap(positions=(-0.02, 0.03), forces=(-1.0, 1.0) * 2), [-0.02, 0.03]),
+        (laws.LinearSprings(), []),
+        (laws.LinearLoad(), []),
+    ],
+)
+def test_breakpoints_of_forces(law, expected):
+    for direction, wanted in ((1.0, expected), (-1.0, expected[::-1])):
+        found, x = [], -direction
+        while abs(x := law.next_breakpoint(x, direction)) < 1.0:
+            found.append(x)
+        assert found == pytest.approx(wanted, abs=1e-15)
 
 
 def test_every_exported_law_is_listed():
@@ -174,8 +214,11 @@ def test_eased_face_equals_python_face(law, method):
 
 @pytest.mark.parametrize(("law", "method"), CASES)
 def test_values_are_finite(law, method):
+    """Infinite may be the next breakpoint alone, where none comes."""
     for given in arguments(law, method):
-        assert np.isfinite(getattr(law, method)(*given)).all()
+        value = getattr(law, method)(*given)
+        none_comes = method == "next_breakpoint" and abs(value) == math.inf
+        assert none_comes or np.isfinite(value).all()
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)

@@ -1,5 +1,8 @@
 """How runs end, as their status and message say."""
 
+import numpy as np
+import pytest
+
 import saleg
 
 
@@ -16,3 +19,12 @@ def test_idling_is_named(base):
     run = saleg.simulate(base.replace(**{"intake.temperature": 600.0}), 1.5)
     assert run.status is saleg.Status.IDLING
     assert run.performance.power == 0.0
+
+
+@pytest.mark.parametrize("share", [1e-5, 1e-7, 1e-9])
+def test_an_engine_with_next_to_no_heat_is_not_too_coarsely_stepped(base, share):
+    """Its energy closes as well as that of an engine with fuel, against what moves to and fro."""
+    changes = {"equivalence_ratio": share, "friction.coefficient": 0.1, "ignition.x": 0.0}
+    run = saleg.simulate(base.replace(**changes), 0.3, rtol=1e-5)
+    assert run.status is saleg.Status.COMPLETED, run.message
+    assert abs(run.energy.residual) < 1e-5 * np.abs(run.strokes["gas_work"]).max()

@@ -12,6 +12,7 @@ from helpers import single_piston
 from saleg import Status, laws
 from saleg.laws import Motion
 from saleg.quantities import quantity
+from saleg.simulation.performance import EnergyBalance
 from saleg.steady.return_map import is_symmetric, repeats_itself
 
 FIGURES = ("stroke", "frequency", "power", "efficiency", "peak_pressure", "compression_ratio")
@@ -259,6 +260,14 @@ class Ageing(laws.ViscousFriction):
 
 
 @dataclass(frozen=True)
+class Hysteretic(laws.LinearSprings):
+    """Springs with 20 N of friction that their energy knows nothing of."""
+
+    def force(self, motion):
+        return -2.0 * self.stiffness * motion.x - 20.0 * motion.direction
+
+
+@dataclass(frozen=True)
 class OneSided(laws.LinearSprings):
     """A soft stop on the right alone."""
 
@@ -363,6 +372,31 @@ def test_a_steady_state_says_first_what_it_is(base):
     assert message.startswith("fixed point of the half-cycle map, found in ")
 
 
-def test_a_force_that_jumps_does_not_hide_a_steady_state(base):
-    found = saleg.steady_state(base.replace(springs=laws.PreloadedSprings(preload=500.0)))
-    assert found.found, found.message
+@pytest.mark.parametrize(
+    "law",
+    [
+        {"springs": laws.PreloadedSprings(preload=500.0)},
+        {"heat_release": laws.DoubleWiebe()},
+        {"heat_release": laws.BurnProfile()},
+    ],
+    ids=["preloaded springs", "double Wiebe", "burn profile"],
+)
+def test_breakpoints_do_not_hide_a_steady_state(base, law):
+    """A smooth engine takes as many half cycles; steps across a breakpoint took ten times these."""
+    smooth = saleg.steady_state(base)
+    found = saleg.steady_state(base.replace(**law))
+    assert found.method == "fixed point", found.message
+    assert found.half_cycles <= smooth.half_cycles + 6
+    assert abs(found.energy.residual) < 1e-6 * found.energy.released
+
+
+def test_a_cycle_that_does_not_conserve_energy_is_no_steady_state(base):
+    """A spring that takes more on the way out than it gives back."""
+    found = saleg.steady_state(base.replace(springs=Hysteretic()))
+    lost = 20.0 * float(np.abs(found.strokes["x_end"] - found.strokes["x_start"]).sum())
+    assert found.status is Status.STEP_FAILURE
+    assert "energy balance is off" in found.message
+    assert found.energy is None
+    assert EnergyBalance.between(found.strokes[-1], found.strokes).residual == pytest.approx(
+        lost, rel=1e-4
+    )

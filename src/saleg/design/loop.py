@@ -317,6 +317,7 @@ def near_state(engine: Engine, near: SteadyState) -> State | None:
     state = prepare(replace(engine, start=CompressedCharge(position=position, burning=burning)))
     if [*state.chambers["mode"]] != [*theirs.chambers["mode"]]:
         return None
+    state.chambers["armed"] = theirs.chambers["armed"]
     z = np.empty(layout.N_VECTOR)
     write_vector(*theirs.records, theirs.y, z)
     read_vector(*state.records, state.y, z)

@@ -68,6 +68,8 @@ def run_delayed(P1, E1, C, y, peaks, delay, forces, O1, tables, work, control):
         watch_point(C, y, k1, peaks)
         landed = DEAD_CENTRE if E.direction * y[V] < 0.0 else -1
         switch(P, E, C, O, y, landed, peaks, tables, control)
+        if landed == DEAD_CENTRE:
+            switch(P, E, C, O, y, -1, peaks, tables, control)
         short = E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke
         if landed == DEAD_CENTRE and short:
             return STALLED

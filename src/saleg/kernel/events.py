@@ -7,6 +7,7 @@ from saleg.kernel.layout import (
     BREAKPOINT,
     BURNING,
     CLOSED,
+    CORNER,
     DEAD_CENTRE,
     DISARMED,
     G0,
@@ -34,7 +35,9 @@ def event_is_possible(E, C, event):
     """
     if event == DEAD_CENTRE:
         return E.direction != 0.0
-    side = (event - 1) % 2
+    if event == CORNER:
+        return E.direction != 0.0 and isfinite(E.x_breakpoint)
+    side = event % 2
     c = C[side]
     outward = c.sign * E.direction
     if event < LIGHT:
@@ -51,7 +54,9 @@ def event_value(E, C, event, y):
     """A number that is negative before the event and positive after it."""
     if event == DEAD_CENTRE:
         return -E.direction * y[V]
-    side = (event - 1) % 2
+    if event == CORNER:
+        return E.direction * (y[X] - E.x_breakpoint)
+    side = event % 2
     c = C[side]
     if event < LIGHT:
         beyond = clearance_of(C, side, y[X]) - c.port
@@ -68,7 +73,9 @@ def event_rate(E, C, event, y, dy):
     """Time derivative of :func:`event_value`."""
     if event == DEAD_CENTRE:
         return -E.direction * dy[V]
-    side = (event - 1) % 2
+    if event == CORNER:
+        return E.direction * y[V]
+    side = event % 2
     c = C[side]
     if event < LIGHT:
         return -c.sign * y[V] if c.mode == OPEN else c.sign * y[V]
@@ -81,17 +88,27 @@ def event_rate(E, C, event, y, dy):
 
 
 @inline
-def land(C, event, y):
+def place_of(E, C, event):
+    """Position of a port, or of the next breakpoint of a force [m]."""
+    if event == CORNER:
+        return E.x_breakpoint
+    c = C[event - PORT]
+    return c.sign * (c.port - c.half_stroke)
+
+
+@inline
+def land(E, C, event, y):
     """Put the state exactly on the event it was located at."""
     if event == DEAD_CENTRE:
         y[V] = 0.0
+    elif event == CORNER:
+        y[X] = E.x_breakpoint
     elif event < LIGHT:
-        c = C[(event - 1) % 2]
-        y[X] = c.sign * (c.port - c.half_stroke)
+        y[X] = place_of(E, C, event)
     elif event < BREAKPOINT:
-        y[IGNITION + (event - 1) % 2] = 1.0
+        y[IGNITION + event % 2] = 1.0
     elif event < HEAD:
-        c = C[(event - 1) % 2]
+        c = C[event % 2]
         c.beyond_breakpoint = -c.beyond_breakpoint
 
 
@@ -214,7 +231,7 @@ def locate(P, E, C, O, tableau, t, h, guess, y, k, y_new, event):
 
 @inline
 def expected_event(E, C, y, dy):
-    """Next dead centre or port and the time to it, extrapolated; -1 if it is far or imminent."""
+    """Next dead centre or place and the time to it, extrapolated; -1 if it is far or imminent."""
     first, earliest, least = -1, 2.0 * E.next_step, 1e-4 * E.next_step
     v, a, jerk = y[V], dy[V], E.jerk
     if E.direction * v > 0.0 > E.direction * a:
@@ -222,11 +239,10 @@ def expected_event(E, C, y, dy):
         s -= (v + s * (a + 0.5 * s * jerk)) / (a + s * jerk)
         if least < s < earliest:
             first, earliest = DEAD_CENTRE, s
-    for event in (PORT, PORT + 1):
+    for event in (CORNER, PORT, PORT + 1):
         if v == 0.0 or not event_is_possible(E, C, event):
             continue
-        c = C[event - PORT]
-        way = c.sign * (c.port - c.half_stroke) - y[X]
+        way = place_of(E, C, event) - y[X]
         s = way / v
         for _ in range(2):
             rest = s * (v + s * (0.5 * a + s * jerk / 6.0)) - way
@@ -261,11 +277,11 @@ def is_sound(C, y):
 
 @compiled
 def next_time_event(C, t_end):
-    """Earliest known time at which something happens: end of combustion, or of the run."""
+    """Earliest known time of an event: breakpoint or end of a combustion, or end of the run."""
     t = t_end
     for side in range(2):
         if C[side].mode == BURNING:
-            t = min(t, C[side].t_end)
+            t = min(t, C[side].t_breakpoint)
     return t
 
 

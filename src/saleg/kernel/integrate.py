@@ -143,7 +143,7 @@ def advance_to_event(P, E, C, O, tableau, h, aim, y, k, y_new):
         h = locate(P, E, C, O, tableau, E.t, h, guess, y, k, y_new, event)
         landed = event
     if landed >= 0:
-        land(C, landed, y_new)
+        land(E, C, landed, y_new)
     return h, landed
 
 
@@ -182,6 +182,29 @@ def observe_within(P, E, C, O, tableau, h, y, k, spare, tables):
     E.t = t
 
 
+@compiled
+def begin_anew(P, E, C, O, y, dy, tables):
+    """Rates after an event, recorded."""
+    rhs(P, E, C, E.t, y, dy, O.motored)
+    E.evaluations += 1.0
+    if O.history > 0:
+        observe_now(P, E, C, O, y, dy, tables)
+
+
+@inline
+def reason_to_stop(E, O, landed):
+    """Code of what ends the run at an event; -1 if it goes on."""
+    if landed >= HEAD:
+        return HEAD_CONTACT
+    if landed != DEAD_CENTRE:
+        return -1
+    if E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke:
+        return STALLED
+    if E.fault != 0.0:
+        return CONTROLLER_FAULT
+    return END_OF_TIME if E.strokes >= O.last_stroke else -1
+
+
 @cached
 def run_on(run):
     """Integrate until the end, a table is full, or nothing more can be done.
@@ -197,14 +220,15 @@ def run_on(run):
     spare.trail[N_PEAKS] = 0.0
     last_step = E.steps + O.max_steps
     refresh(P, E, C, y)
-    # What is due at the start.
-    switch(P, E, C, O, y, -1, peaks, tables, control)
     rhs(P, E, C, E.t, y, k[0], O.motored)
     E.evaluations += 1.0
-    if peaks[PEAK_PRESSURE] == 0.0:  # nothing of this stroke has been watched yet
-        watch_point(C, y, k[0], peaks)
     if O.history > 0 and tables.filled[0].history == 0:
         observe_now(P, E, C, O, y, k[0], tables)
+    # What is due at the start.
+    if switch(P, E, C, O, y, -1, peaks, tables, control):
+        begin_anew(P, E, C, O, y, k[0], tables)
+    if peaks[PEAK_PRESSURE] == 0.0:  # nothing of this stroke has been watched yet
+        watch_point(C, y, k[0], peaks)
     while E.t < O.t_end:
         if E.steps >= last_step or not has_room(O, tables):
             return BUFFER_FULL
@@ -226,22 +250,18 @@ def run_on(run):
             watch_point(C, y, k[0], peaks)
         if O.history > 0 and (landed >= 0 or E.steps % O.history < 1.0):
             observe_now(P, E, C, O, y, k[0], tables)
-        if switch(P, E, C, O, y, landed, peaks, tables, control):
-            spare.trail[N_PEAKS] = 0.0
-            rhs(P, E, C, E.t, y, k[0], O.motored)
-            E.evaluations += 1.0
-            watch_point(C, y, k[0], peaks)
-            if O.history > 0:
-                observe_now(P, E, C, O, y, k[0], tables)
-        if landed >= HEAD:
-            return HEAD_CONTACT
+        changed = switch(P, E, C, O, y, landed, peaks, tables, control)
+        code = reason_to_stop(E, O, landed)
         if landed == DEAD_CENTRE:
             if E.direction > 0.0:
                 keep_snapshot(run.engine, C, y, run.snapshots)
-            if E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke:
-                return STALLED
-            if E.fault != 0.0:
-                return CONTROLLER_FAULT
-            if E.strokes >= O.last_stroke:
-                return END_OF_TIME
+            if code != END_OF_TIME:  # else what is due now is left to the call that goes on
+                switch(P, E, C, O, y, -1, peaks, tables, control)
+        if changed:
+            spare.trail[N_PEAKS] = 0.0
+            begin_anew(P, E, C, O, y, k[0], tables)
+        if code >= 0:
+            return code
+        if changed:
+            watch_point(C, y, k[0], peaks)
     return END_OF_TIME

@@ -70,13 +70,14 @@ CONTROLLER_FAULT = 8
 # Steps of the adaptive method in one stroke beyond which an engine is too stiff for it.
 MAX_STEPS = 1_000_000.0
 
-# Events, in the order they are looked for; one per side from PORT on.
+# Events, in the order they are looked for; from PORT on one per side, even for the left.
 DEAD_CENTRE = 0
-PORT = 1
-LIGHT = 3
-BREAKPOINT = 5
-HEAD = 7
-N_EVENTS = 9
+CORNER = 1
+PORT = 2
+LIGHT = 4
+BREAKPOINT = 6
+HEAD = 8
+N_EVENTS = 10
 # Kinds in the event table.
 EVENT_DEAD_CENTRE = 0
 EVENT_PORT_CLOSING = 1
@@ -125,6 +126,7 @@ ENGINE_RECORD = np.dtype(
             "stroke",
             "load_weight",
             "friction_held",
+            "x_breakpoint",
             "x_dead_centre",
             "t_dead_centre",
             "last_fuel_energy",
@@ -222,6 +224,9 @@ CHAMBER_RECORD = np.dtype(
             "per_mass_gas",
             "ln_breakpoint",
             "beyond_breakpoint",
+            "first_phase",
+            "last_phase",
+            "t_breakpoint",
             "heat_first",
             "heat_second",
             "heat_third",

@@ -1,6 +1,7 @@
 """The return map from dead centre to dead centre, and its fixed points.
 
-What an engine will do is settled by its state at a dead centre. Written as a vector of
+What an engine will do is settled by its state at a dead centre: after it has turned, before a
+charge is renewed or lit there, which belongs to the stroke that begins. Written as a vector of
 dimensionless numbers it can be compared, extrapolated and put back. A mirrored engine repeats
 itself, seen in the mirror, after half a cycle.
 """
@@ -12,7 +13,6 @@ from saleg.kernel.layout import (
     BURNING,
     CURRENT,
     END_OF_TIME,
-    G0,
     IGNITION,
     MOTORED,
     N_VECTOR,
@@ -25,7 +25,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.run_plainly import run_at
-from saleg.kernel.state import begin_stroke, clearance_of, copy_row, keep_snapshot
+from saleg.kernel.state import begin_stroke, copy_row, keep_snapshot
 
 # What do_orbit is asked for.
 FIND = 0
@@ -121,11 +121,6 @@ def read_vector(E, C, y, z):
         y[THETA + side] = z[first + Z_LN_PRESSURE]
         y[IGNITION + side] = z[first + Z_INTEGRAL]
         y[MOTORED + side] = z[first + Z_LN_MOTORED]
-        if c.curve_exponent > 0.0 > c.sign * E.direction:  # its charge was renewed just here
-            clearance = clearance_of(C, side, y[X])
-            c.p_closing = exp(y[THETA + side] - G0 * log(clearance / c.half_stroke))
-            c.V_closing = c.area * clearance
-            c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
         if c.mode == BURNING:
             c.duration = exp(z[first + Z_LN_DURATION])
             phase = min(max(z[first + Z_BURN_PHASE], 0.0), 1.0)

@@ -103,7 +103,7 @@ def heat_from_fuel(P, C, side, t):
     c = C[side]
     if c.mode != BURNING:
         return 0.0
-    u = min(max((t - c.t_ignition) / c.duration, 0.0), 1.0)
+    u = min(max((t - c.t_ignition) / c.duration, c.first_phase), c.last_phase)
     return c.heat / c.duration * heat_release_burn_rate(P, side, u)
 
 

@@ -4,7 +4,7 @@ Arguments shared by all functions here: `P` the laws, `E` the engine's record, `
 chambers' records (see :mod:`saleg.kernel.layout`), `side` 0 for left and 1 for right.
 """
 
-from math import exp, log, pi, sin
+from math import exp, inf, log, pi, sin
 
 from saleg.kernel.copies import motored_gas, with_pressure_rate
 from saleg.kernel.jit import compiled, inline
@@ -38,18 +38,26 @@ from saleg.kernel.slots import (
     alternator_current_rate,
     alternator_electrical_power,
     alternator_force,
+    alternator_next_breakpoint,
     friction_force,
     gas_properties_breakpoint,
     gas_properties_gamma,
     heat_release_burn_rate,
+    heat_release_next_breakpoint,
     heat_transfer_coefficient,
     heat_transfer_coefficient_constants,
     ignition_rate,
     ignition_rate_constants,
     springs_force,
+    springs_next_breakpoint,
 )
 from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Charge, Gas, Motion
+
+# How near a breakpoint counts as reached, over the half stroke or the duration of the combustion,
+# and how far beside it is beyond it.
+AT_BREAKPOINT = 1e-9
+ONE_SIDE = 1e-15
 
 
 @inline
@@ -137,7 +145,7 @@ def heat_release(P, C, side, t):
     c = C[side]
     if c.mode != BURNING:
         return 0.0
-    u = min(max((t - c.t_ignition) / c.duration, 0.0), 1.0)
+    u = min(max((t - c.t_ignition) / c.duration, c.first_phase), c.last_phase)
     energy = c.fuel_to_burn * c.lower_heating_value
     return energy / c.duration * heat_release_burn_rate(P, side, u)
 
@@ -236,9 +244,44 @@ def rhs(P, E, C, t, y, dy, motored):
     rates_of_motion(P, E, t, y, dy, gas_force)
 
 
+@inline
+def bound_phase(P, E, C, side):
+    """Find the breakpoints of the burn rate that the present phase of a combustion lies between.
+
+    Steps see the rate on their side of either; a breakpoint within rounding has been reached.
+    """
+    c = C[side]
+    u = (E.t - c.t_ignition) / c.duration
+    slack = AT_BREAKPOINT + 1e-15 * abs(E.t) / c.duration
+    reached = heat_release_next_breakpoint(P, side, u - slack)
+    ahead = heat_release_next_breakpoint(P, side, u + slack)
+    c.first_phase = reached + ONE_SIDE if reached <= u + slack else 0.0
+    c.last_phase = ahead - ONE_SIDE if u + slack < ahead < 1.0 else 1.0
+    c.t_breakpoint = c.t_ignition + ahead * c.duration if c.last_phase < 1.0 else c.t_end
+
+
+@inline
+def find_position(P, E, x):
+    """Find the next position at which a force on the translator has a corner."""
+    slack = AT_BREAKPOINT * E.length_scale
+    E.x_breakpoint = inf
+    if E.direction == 0.0:
+        return
+    beyond = x + E.direction * slack
+    spring = springs_next_breakpoint(P, beyond, E.direction)
+    alternator = alternator_next_breakpoint(P, beyond, E.direction)
+    nearest = inf
+    for place in (spring, alternator):
+        way = E.direction * (place - x)
+        if slack < way < nearest:
+            nearest = way
+            E.x_breakpoint = place
+
+
 @compiled
 def refresh(P, E, C, y):
     """Compute the numbers that stay the same until the next event."""
+    find_position(P, E, y[X])
     for side in range(2):
         c = C[side]
         if c.mode == OPEN:
@@ -255,3 +298,5 @@ def refresh(P, E, C, y):
         c.heat_first, c.heat_second, c.heat_third = heat
         ignition = ignition_rate_constants(P, side, gas, charge)
         c.ignition_first, c.ignition_second, c.ignition_third = ignition
+        if c.mode == BURNING:
+            bound_phase(P, E, C, side)

@@ -59,6 +59,11 @@ def heat_release_burnt_fraction(P: Any, side: int, u: float) -> float:
     return _chamber(P, side).heat_release.burnt_fraction(u)
 
 
+def heat_release_next_breakpoint(P: Any, side: int, u: float) -> float:
+    """Next phase at which the burn rate is not smooth."""
+    return _chamber(P, side).heat_release.next_breakpoint(u)
+
+
 def ignition_rate(
     P: Any, side: int, gas: Gas, charge: Charge, logarithms: Logarithms | None = None
 ) -> float:
@@ -108,6 +113,11 @@ def springs_energy(P: Any, motion: Motion) -> float:
     return P.springs.energy(motion)
 
 
+def springs_next_breakpoint(P: Any, x: float, direction: float) -> float:
+    """Next position at which the force of the springs has a corner."""
+    return P.springs.next_breakpoint(x, direction)
+
+
 def friction_at_dead_centre(P: Any, memory: float, stroke: Stroke) -> float:
     """Number the friction law remembers."""
     return P.friction.at_dead_centre(memory, stroke)
@@ -136,6 +146,11 @@ def alternator_current_rate(P: Any, load_weight: float, motion: Motion) -> float
 def alternator_electrical_power(P: Any, load_weight: float, motion: Motion) -> float:
     """Electrical power."""
     return P.alternator.electrical_power(load_weight, motion)
+
+
+def alternator_next_breakpoint(P: Any, x: float, direction: float) -> float:
+    """Next position at which the force of the alternator has a corner."""
+    return P.alternator.next_breakpoint(x, direction)
 
 
 def call_at(address: Any, numbers: int, memory: int, signals: int, commands: int) -> None:

@@ -12,6 +12,7 @@ from saleg.kernel.layout import (
     BURNING,
     CLOSED,
     COMPILED,
+    CORNER,
     DEAD_CENTRE,
     DISARMED,
     ELECTRICAL_ENERGY,
@@ -382,15 +383,12 @@ def turn(P, E, C, y, peaks, tables, control):
 
 
 @compiled
-def switch(P, E, C, O, y, landed, peaks, tables, control):
-    """Do all that is due at the present instant; returns whether anything was.
+def change_chambers(P, E, C, O, y, tables):
+    """Carry out all changes of the chambers that are due; returns whether there were any.
 
-    Chambers change first, one after the other, then the translator turns, which may make further
-    changes due. Every change takes away its own cause, so this ends; the bound is a safeguard.
+    Every change takes away its own cause, so this ends; the bound is a safeguard.
     """
-    turns = landed == DEAD_CENTRE
     changed = False
-    was_motoring = E.motoring
     for _ in range(12):
         quiet = True
         for side in range(2):
@@ -400,20 +398,34 @@ def switch(P, E, C, O, y, landed, peaks, tables, control):
                 change_mode(P, E, C, O, side, y, kind)
                 quiet = False
                 changed = True
-        if quiet and not turns:
-            break
         if quiet:
-            turn(P, E, C, y, peaks, tables, control)
-            side = LEFT if E.direction > 0.0 else RIGHT
-            record_event(E, C, O, y, kind_of_turn(landed), side, tables)
-            turns = False
+            break
+    return changed
+
+
+@compiled
+def switch(P, E, C, O, y, landed, peaks, tables, control):
+    """Do what is due at the present instant; returns whether anything was.
+
+    Chambers change first, one after the other, then the translator turns. What is due in a chamber
+    because it has turned belongs to the stroke that begins and waits for the next call.
+    """
+    changed = change_chambers(P, E, C, O, y, tables) or landed == CORNER
+    for side in range(2):
+        if C[side].mode == BURNING and E.t >= C[side].t_breakpoint:
             changed = True
+    was_motoring = E.motoring
+    if landed == DEAD_CENTRE:
+        turn(P, E, C, y, peaks, tables, control)
+        side = LEFT if E.direction > 0.0 else RIGHT
+        record_event(E, C, O, y, kind_of_turn(landed), side, tables)
+        changed = True
     if E.motoring != was_motoring:
         kind = EVENT_MOTOR_ON if E.motoring > 0.0 else EVENT_MOTOR_OFF
         side = LEFT if E.direction > 0.0 else RIGHT
         record_event(E, C, O, y, kind, side, tables)
     if landed >= HEAD:
-        record_event(E, C, O, y, kind_of_turn(landed), (landed - 1) % 2, tables)
+        record_event(E, C, O, y, kind_of_turn(landed), landed % 2, tables)
     if changed:
         refresh(P, E, C, y)
     return changed

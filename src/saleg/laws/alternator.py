@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator
-from saleg.laws.interpolation import bilinear
+from saleg.laws.interpolation import bilinear, next_point
 from saleg.quantities import quantity, series
 
 
@@ -321,6 +321,10 @@ class ForceMap(RegulatedAlternator):
             motion.x, motion.v, self.positions, self.velocities, self.forces
         )
         return self.efficiency * force * motion.v
+
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position of the table [m]."""
+        return next_point(x, direction, self.positions)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,6 +7,7 @@ functions, ``math`` and ``np``. It does not call its other methods through ``sel
 
 from __future__ import annotations
 
+import math
 from typing import ClassVar, NamedTuple
 
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
@@ -116,7 +117,8 @@ class HeatRelease(Law):
     """Course of the heat release once the charge is lit."""
 
     slot = "heat_release"
-    compiled = ("duration", "burn_rate", "burnt_fraction")
+    compiled = ("duration", "burn_rate", "burnt_fraction", "next_breakpoint")
+    optional = ("next_breakpoint",)
 
     def duration(self, gas: Gas, charge: Charge) -> float:
         """Combustion duration [s], asked once, at the start of combustion."""
@@ -129,6 +131,13 @@ class HeatRelease(Law):
     def burnt_fraction(self, u: float) -> float:
         """Burnt fraction [-] at `u`, the time since start of combustion over the duration."""
         raise NotImplementedError
+
+    def next_breakpoint(self, u: float) -> float:
+        """Least phase above `u` at which the burn rate is not smooth [-]; 1 or more for none.
+
+        Steps end there, and up to there they see the rate on the near side of it.
+        """
+        return 1.0
 
 
 class Ignition(Law):
@@ -192,7 +201,8 @@ class Springs(Law):
     """Springs between translator and housing."""
 
     slot = "springs"
-    compiled = ("force", "energy")
+    compiled = ("force", "energy", "next_breakpoint")
+    optional = ("next_breakpoint",)
 
     def force(self, motion: Motion) -> float:
         """Force on the translator [N], positive to the right."""
@@ -201,6 +211,13 @@ class Springs(Law):
     def energy(self, motion: Motion) -> float:
         """Energy stored [J]."""
         raise NotImplementedError
+
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position after `x` on the way right (`direction` 1) or left (-1) [m]; inf for none.
+
+        One at which the force, continuous though, is not smooth: steps end there.
+        """
+        return math.inf
 
 
 class Friction(Law):
@@ -226,8 +243,8 @@ class Alternator(Law):
     """Linear alternator; its load weight is set anew at each dead centre."""
 
     slot = "alternator"
-    compiled = ("at_dead_centre", "force", "electrical_power", "current_rate")
-    optional = ("current_rate",)
+    compiled = ("at_dead_centre", "force", "electrical_power", "current_rate", "next_breakpoint")
+    optional = ("current_rate", "next_breakpoint")
 
     def at_dead_centre(self, load_weight: float, stroke: Stroke) -> float:
         """Load weight [-] until the next dead centre."""
@@ -244,6 +261,10 @@ class Alternator(Law):
     def current_rate(self, load_weight: float, motion: Motion) -> float:
         """Rate of the current [A/s], for a law that has one (``motion.current``)."""
         return 0.0
+
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position after `x` at which the force is not smooth [m], as of :class:`Springs`."""
+        return math.inf
 
 
 #: Slots of one chamber and slots of the whole engine, by name.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import HeatRelease
-from saleg.laws.interpolation import monotone, monotone_slope
+from saleg.laws.interpolation import interval, monotone, monotone_slope
 from saleg.quantities import quantity, series
 
 
@@ -142,6 +142,12 @@ class DoubleWiebe(BurnDuration):
         total = self.premixed_share * premixed + (1.0 - self.premixed_share) * diffusive
         return total / wiebe_fraction(1.0, self.a, 0.0)
 
+    def next_breakpoint(self, u: float) -> float:
+        """Least phase above `u` at which one of the two begins or ends [-]."""
+        first = min(self.premixed_end, self.diffusion_start)
+        second = max(self.premixed_end, self.diffusion_start)
+        return first if u < first else second if u < second else 1.0
+
 
 @dataclass(frozen=True)
 class BurnProfile(BurnDuration):
@@ -175,6 +181,12 @@ class BurnProfile(BurnDuration):
     def burnt_fraction(self, u: float) -> float:
         """Burnt fraction [-] since the start of combustion."""
         return monotone(u, self.times, self.fractions) - self.fractions[0]
+
+    def next_breakpoint(self, u: float) -> float:
+        """Least time of the table above `u`, where the rate has a corner [-]."""
+        if u < self.times[0]:
+            return self.times[0]
+        return self.times[interval(u, self.times) + 1]
 
 
 @dataclass(frozen=True)

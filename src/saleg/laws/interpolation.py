@@ -5,6 +5,7 @@ Grids rise; beyond their ends the value at the end holds.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 
@@ -25,6 +26,16 @@ def share(x: float, grid: Sequence[float], i: int) -> float:
     if len(grid) == 1:
         return 0.0
     return min(max((x - grid[i]) / (grid[i + 1] - grid[i]), 0.0), 1.0)
+
+
+def next_point(x: float, direction: float, points: Sequence[float]) -> float:
+    """Nearest point beyond x on the way up (`direction` 1) or down (-1); infinite if none is."""
+    found, nearest = direction * math.inf, math.inf
+    for i in range(len(points)):
+        way = direction * (points[i] - x)
+        if 0.0 < way < nearest:
+            found, nearest = points[i], way
+    return found
 
 
 def linear(x: float, grid: Sequence[float], values: Sequence[float]) -> float:

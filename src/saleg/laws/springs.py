@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Springs
-from saleg.laws.interpolation import linear, linear_integral
+from saleg.laws.interpolation import linear, linear_integral, next_point
 from saleg.quantities import quantity, series
 
 #: Stiffness of what has been built [N/m].
@@ -78,6 +78,12 @@ class ProgressiveSprings(Springs):
                 start = end
         return total
 
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position at which the stiffness has a corner [m]."""
+        right = next_point(x, direction, self.deflections)
+        left = -next_point(-x, -direction, self.deflections)
+        return right if direction * (right - left) < 0.0 else left
+
 
 @dataclass(frozen=True)
 class PreloadedSprings(Springs):
@@ -115,6 +121,11 @@ class PreloadedSprings(Springs):
         rest = abs(motion.x) - self.preload / self.stiffness
         return both + rest * (2.0 * self.preload + 0.5 * self.stiffness * rest)
 
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position at which a spring touches or lifts off [m]."""
+        reach = self.preload / self.stiffness if self.stiffness > 0.0 else math.inf
+        return next_point(x, direction, (-reach, reach))
+
 
 @dataclass(frozen=True)
 class EndStops(Springs):
@@ -148,3 +159,7 @@ class EndStops(Springs):
         beyond = max(abs(motion.x) - self.gap, 0.0)
         stop = 0.5 * self.stop_stiffness * beyond * beyond
         return self.stiffness * motion.x * motion.x + stop
+
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position at which a stop is met or left [m]."""
+        return next_point(x, direction, (-self.gap, self.gap))

@@ -36,6 +36,8 @@ from saleg.simulation.initial_state import ratings
 
 #: Distance from a port at which it counts as reached, over the half stroke [-].
 SLACK = 1e-13
+#: The same for a breakpoint of the burn rate, over the duration of the combustion [-].
+PHASE_SLACK = 1e-9
 _TOTALS = (
     "alternator_work",
     "electrical_energy",
@@ -249,6 +251,15 @@ class RunningEngine:
         if c.duration <= 0.0:
             self.burn_at_once(side)
             self.end_combustion(side)
+
+    def bound_phase(self, side: int) -> None:
+        """Find the breakpoints of the burn rate that the present phase lies between."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, CombustionChamber)
+        law, u = chamber.heat_release, (self.t - c.t_ignition) / c.duration
+        reached, ahead = law.next_breakpoint(u - PHASE_SLACK), law.next_breakpoint(u + PHASE_SLACK)
+        c.first_phase = math.nextafter(reached, 1.0) if reached <= u + PHASE_SLACK else 0.0
+        c.last_phase = math.nextafter(ahead, 0.0) if ahead < 1.0 else 1.0
 
     def burn_at_once(self, side: int) -> None:
         """Release all heat at constant volume: the temperature rises by as much as it takes."""

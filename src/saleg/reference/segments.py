@@ -202,7 +202,7 @@ def _unlit(side: int) -> Callable[[np.ndarray], float]:
 
 def advance(running: RunningEngine, end: float, solver: Solver, tally: Tally) -> Event | None:
     """Integrate to the next event, or to `end` if none comes; returns the event."""
-    end = min([end, *_ends_of_combustion(running), _before_first_movement(running, end, solver)])
+    end = min([end, *_breaks_in_combustion(running), _before_first_movement(running, end, solver)])
     if end - running.t <= 1e-14 * max(end, solver.natural_time):
         running.t = end
         return None
@@ -252,9 +252,14 @@ def _solve(
     return solution
 
 
-def _ends_of_combustion(running: RunningEngine) -> list[float]:
-    burning = [c for c in running.chambers if c.mode == layout.BURNING]
-    return [c.t_ignition + c.duration for c in burning]
+def _breaks_in_combustion(running: RunningEngine) -> list[float]:
+    """Times of the next breakpoints of burn rates, or of the ends of combustion [s]."""
+    times = []
+    for side, c in enumerate(running.chambers):
+        if c.mode == layout.BURNING:
+            running.bound_phase(side)
+            times.append(c.t_ignition + c.last_phase * c.duration)
+    return times
 
 
 def _before_first_movement(running: RunningEngine, end: float, solver: Solver) -> float:

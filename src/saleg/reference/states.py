@@ -60,6 +60,8 @@ class ChamberState:
         Whether the charge may ignite, as the layout has it.
     t_ignition, duration, heat : float
         Of the combustion: start and duration [s], heat if all that can burn does [J].
+    first_phase, last_phase : float
+        Breakpoints of the burn rate it lies between, over the duration [-].
     number : float
         How many charges have been composed.
     """
@@ -83,6 +85,8 @@ class ChamberState:
     t_ignition: float = 0.0
     duration: float = 1.0
     heat: float = 0.0
+    first_phase: float = 0.0
+    last_phase: float = 1.0
     number: float = 0.0
 
 

@@ -122,6 +122,8 @@ class Course:
                     bar.update(self.state.time - before)
                 if code != layout.BUFFER_FULL:
                     return code
+                if self.state.engine["steps"][0] >= self.detail.most_steps:
+                    return layout.END_OF_TIME
 
     def advance(self) -> int:
         """Call the kernel once; returns why it stopped."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ STEADY = 1e-6
 #: Distance from where dead centres, charges and what laws remember are heading, in half strokes or
 #: relative, within which a run is steady.
 NEAR = 1e-4
-#: Residual of a cycle's energy balance, over the heat released, beyond which it is no result.
+#: Imbalance of a cycle's energy beyond which it is no result (see :func:`imbalance`).
 MAX_IMBALANCE = 0.05
 #: Cycles over which it must stay below.
 STEADY_CYCLES = 5
@@ -68,11 +69,12 @@ def outcome_of(
             f"the piston stands still at x = {x:.5g} mm, no dead centre since t = {since:.6g} s; "
             f"{_STALL_HINT}"
         )
-    off = _imbalance(strokes) if conserves else 0.0
+    enough = conserves and len(strokes) > 2
+    off = imbalance(strokes[-3], strokes[-2:]) if enough else 0.0
     if off > MAX_IMBALANCE:
         return Status.STEP_FAILURE, (
             f"the steps are too coarse: at t = {t:.6g} s the energy balance of the last cycle is "
-            f"off by {100.0 * off:.2g} % of the heat released; try a smaller step or rtol"
+            f"off by {100.0 * off:.2g} % of its largest term; try a smaller step or rtol"
         )
     return _at_end_of_time(engine, t, strokes)
 
@@ -86,12 +88,23 @@ def _stands_still(state: State) -> bool:
     return waited > STILL_PERIODS * period and coming < STILL * float(E["maximum_stroke"])
 
 
-def _imbalance(strokes: np.ndarray) -> float:
-    """Residual of the energy balance of the last two strokes over the heat released."""
-    if len(strokes) < 3:
-        return 0.0
-    balance = EnergyBalance.between(strokes[-3], strokes[-2:])
-    return abs(balance.residual) / balance.released if balance.released > 0.0 else 0.0
+def imbalance(before: Any, strokes: np.ndarray) -> float:
+    """Residual of an energy balance over its largest term, or over what moves to and fro.
+
+    The latter is the work of the gas in a chamber in a stroke, or the energy in the springs: all
+    terms of an engine without heat and friction are zero but for rounding.
+
+    Parameters
+    ----------
+    before : row of STROKE_RECORD
+        The stroke before.
+    strokes : ndarray of STROKE_RECORD
+        Consecutive strokes.
+    """
+    balance = EnergyBalance.between(before, strokes)
+    moved = float(np.abs(strokes["gas_work"]).max()), float(np.abs(strokes["spring_energy"]).max())
+    largest = max(balance.largest_term, *moved)
+    return abs(balance.residual) / largest if largest > 0.0 else 0.0
 
 
 _STALL_HINT = "try a smaller load, more fuel, or another start"

@@ -296,6 +296,12 @@ class EnergyBalance:
         return dataclasses.asdict(self)
 
     @property
+    def largest_term(self) -> float:
+        """Magnitude of the largest term of the balance [J]."""
+        terms = (self.released, self.heat_transfer, self.exhaust, self.port_work)
+        return max(map(abs, (*terms, self.friction, self.alternator, self.stored)))
+
+    @property
     def alternator_loss(self) -> float:
         """Mechanical work the alternator did not turn into electrical energy [J]."""
         return self.alternator - self.electrical

@@ -125,8 +125,11 @@ class Detail:
         Instants recorded within each step of the history.
     last_stroke : float
         Number of the stroke with whose end the run ends at the latest.
+    most_steps : float
+        Steps after which the run ends as if its time were over.
     """
 
     peaks: int = 1
     dense: int = 0
     last_stroke: float = math.inf
+    most_steps: float = math.inf

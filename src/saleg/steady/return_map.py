@@ -56,8 +56,8 @@ PROBES = tuple(
 #: Hot gas in motion and its charge, to which every wall that takes heat has a coefficient.
 PROBE_GAS = Gas(30e5, 900.0, 1e-4, 20e5, 0.03, 0.06, 8.0, 450.0, 0.0, -5.0)
 PROBE_CHARGE = Charge(1e-4, 0.0, 1e-4, 0.0, 0.0, 1e5, 300.0, 4e-4, 3e-4)
-#: Methods of laws of motion that are shown a stroke, not a motion.
-SHOWN_NO_MOTION = ("at_dead_centre",)
+#: Methods of laws of motion that are shown no motion, but a stroke or a position.
+SHOWN_NO_MOTION = ("at_dead_centre", "next_breakpoint")
 #: How Python takes a field by name, and the fields of a motion that are not the time.
 TAKE = "LOAD_ATTR"
 TIMELESS = frozenset(Motion._fields) - {"t"}

@@ -22,13 +22,12 @@ from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
 from saleg.quantities import as_float, is_whole
-from saleg.simulation.course import STEPS_PER_CALL, Replay
+from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import natural_period, prepare
-from saleg.simulation.integration import integrate
-from saleg.simulation.outcome import is_dead, is_idling
+from saleg.simulation.outcome import MAX_IMBALANCE, imbalance, is_dead, is_idling
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
-from saleg.simulation.settings import Settings, SettingsError
+from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
@@ -48,11 +47,19 @@ MIRROR_MISSED = 10.0
 #: Factor on the tolerance with which an engine that seems unsteady is tried once more.
 FINER = 1e-2
 FINEST = 1e-9
+#: Imbalance of the energy of a cycle beyond which a fixed point does not count, over the tolerance
+#: of the integrator, but not below what a force with corners of its own may leave.
+ENERGY = 1e3
+MIN_IMBALANCE = 1e-4
 #: Natural periods simulated where no fixed point was found; 4 s for the base case.
 FALLBACK_PERIODS = 108.0
+#: Steps it may take in all, a few seconds; the base case takes a hundredth of them.
+FALLBACK_STEPS = 1.5e6
 #: What a quick search may take: maps from one start, and steps to one return.
 QUICK_MAPS = 40
 QUICK_STEPS = 1000
+#: Steps to one return in a thorough search; the base case takes seventy.
+THOROUGH_STEPS = 20_000
 
 
 class Effort(enum.Enum):
@@ -313,7 +320,7 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
     ways = (False,) if not symmetric else (True,) if quick else (True, False)
     for start, mirrored in itertools.product(starts(engine), ways):
         state = prepare(replace(engine, start=start))
-        most_steps = QUICK_STEPS if quick else STEPS_PER_CALL
+        most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
         return_map = ReturnMap.of(engine, state, rtol, mirrored, most_steps)
         found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick)
         cycled = found.code == layout.END_OF_TIME
@@ -363,7 +370,7 @@ def result_of(
     engine, strokes = return_map.engine, return_map.strokes[:2].copy()
     snapshots = Snapshots(*(part.copy() for part in return_map.snapshots))
     settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
-    status, what = _kind(engine, strokes)
+    status, what = _kind(engine, strokes, rtol)
     cycle = "half-cycle" if return_map.mirrored else "full-cycle"
     message = (
         f"{what}fixed point of the {cycle} map, found in {spent} half cycles; "
@@ -382,8 +389,14 @@ def result_of(
     )
 
 
-def _kind(engine: Engine, strokes: np.ndarray) -> tuple[Status, str]:
+def _kind(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers, and that as the beginning of a message."""
+    off = imbalance(strokes[-1], strokes)
+    if off > min(max(ENERGY * rtol, MIN_IMBALANCE), MAX_IMBALANCE):
+        return Status.STEP_FAILURE, (
+            f"the energy balance is off by {100.0 * off:.2g} % of its largest term; try a smaller "
+            "rtol, or check that the energies of the laws belong to their forces: "
+        )
     if is_dead(engine, strokes):
         return Status.STALLED, "swings without firing: "
     if is_idling(engine, strokes):
@@ -408,14 +421,17 @@ def not_found(engine: Engine, spent: int, evaluations: int, why: str) -> SteadyS
 def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
     start = prepare(engine)  # names a law that fails
-    run = integrate(engine, start, Settings(FALLBACK_PERIODS * natural_period(engine), rtol=rtol))
+    settings = Settings(FALLBACK_PERIODS * natural_period(engine), rtol=rtol)
+    course = Course(engine, start, settings, detail=Detail(most_steps=FALLBACK_STEPS))
+    run = course.finish()
+    given_up = f" (given up after {run.steps} steps)" if run.steps >= FALLBACK_STEPS else ""
     steady = run.status in (Status.STEADY, Status.IDLING)
     strokes = run.orbit.strokes if steady and run.orbit is not None else None
     unsettled = run.status is Status.COMPLETED
     return SteadyState(
         engine=engine,
         status=Status.UNSTEADY if unsettled else run.status,
-        message=f"{why}; simulated instead: {run.message}",
+        message=f"{why}; simulated instead{given_up}: {run.message}",
         half_cycles=spent + len(run.strokes),
         evaluations=evaluations + run.evaluations,
         residual=math.nan,
