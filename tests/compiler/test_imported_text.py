@@ -8,11 +8,11 @@ import math
 
 import numpy as np
 import pytest
-from saleg.sweep.identity import code_hash
 
 import saleg
 from helpers import compiled_method
 from saleg import Controller, LawError, SalegWarning
+from saleg.batch.identity import code_hash
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.compiler.controllers import control_of
 from saleg.compiler.imported_text import NoSource, block_of, found_text

@@ -65,7 +65,7 @@ def check(run):
         values = run.performance.to_dict()
         if run.last_cycle_strokes is not None:
             unknown = {"cr_change"} if len(run.strokes) < 6 else set()
-            if values["fuel_energy_per_cycle"] == 0.0:
+            if values["fuel_energy_per_cycle"] < 1e-290:
                 unknown |= {"efficiency", "indicated_efficiency"}
             compressed = [
                 row["ignition_time"][0 if row["direction"] < 0.0 else 1]

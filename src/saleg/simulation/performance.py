@@ -177,7 +177,7 @@ class Performance:
             frequency=1.0 / period,
             power=power,
             rms_power=math.sqrt(max(float(strokes["electrical_squared"].sum()), 0.0) / period),
-            efficiency=power * period / fuel if fuel > 0.0 else nan,
+            efficiency=_share(power * period, fuel),
             mean_alternator_force=float(strokes["alternator_impulse"].sum()) / period,
             peak_pressure=float(strokes["peak_pressure"][:, counted].max()),
             peak_acceleration=float(strokes["peak_acceleration"].max()),
@@ -188,7 +188,7 @@ class Performance:
             peak_temperature=float(strokes["peak_temperature"][:, counted].max()),
             peak_pressure_rise=float(strokes["peak_pressure_rise"][:, counted].max()),
             indicated_work=work,
-            indicated_efficiency=work / fuel if fuel > 0.0 else nan,
+            indicated_efficiency=_share(work, fuel),
             adverse_work=nan if history is None else adverse_work(engine, history),
             start_of_combustion=burn.start,
             start_of_combustion_position=burn.start_position,
@@ -196,6 +196,12 @@ class Performance:
             stability=stability,
             cr_change=cr_change,
         )
+
+
+def _share(work: float, fuel: float) -> float:
+    """Work over the energy of the fuel; NaN without fuel, or with too little to divide by."""
+    share = work / fuel if fuel > 0.0 else math.nan
+    return share if math.isfinite(share) else math.nan
 
 
 #: Figures of a cycle by name, and their SI units.

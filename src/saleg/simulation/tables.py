@@ -101,7 +101,7 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
     period = out["duration"] + back["duration"]
     electrical = out["electrical_energy"] + back["electrical_energy"]
     fuel = out["fresh_fuel_energy"].sum(axis=1) + back["fresh_fuel_energy"].sum(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         efficiency = np.where(fuel > 0.0, electrical / fuel, np.nan)
     columns = {
         "t": out["t"] - out["duration"],
