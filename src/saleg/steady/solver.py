@@ -277,7 +277,7 @@ def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> Steady
     if quick:
         return _solved(engine, rtol, min(max_maps, QUICK_MAPS), quick)
     found = _solved(engine, rtol, max_maps, quick)
-    if found.status is Status.UNSTEADY and rtol > FINEST:
+    if found.status is Status.UNSTEADY and rtol > FINEST and not _is_given_up(found.fallback):
         # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
         again = _solved(engine, max(FINER * rtol, FINEST), max_maps, quick)
         return replace(
@@ -418,13 +418,18 @@ def not_found(engine: Engine, spent: int, evaluations: int, why: str) -> SteadyS
     )
 
 
+def _is_given_up(run: Run | None) -> bool:
+    """Whether a simulation ended because of the number of its steps."""
+    return run is not None and run.steps >= FALLBACK_STEPS
+
+
 def waited_for(engine: Engine, rtol: float, spent: int, evaluations: int, why: str) -> SteadyState:
     """Simulate from the engine's own start and report how that ends."""
     start = prepare(engine)  # names a law that fails
     settings = Settings(FALLBACK_PERIODS * natural_period(engine), rtol=rtol)
     course = Course(engine, start, settings, detail=Detail(most_steps=FALLBACK_STEPS))
     run = course.finish()
-    given_up = f" (given up after {run.steps} steps)" if run.steps >= FALLBACK_STEPS else ""
+    given_up = f" (given up after {run.steps} steps)" if _is_given_up(run) else ""
     steady = run.status in (Status.STEADY, Status.IDLING)
     strokes = run.orbit.strokes if steady and run.orbit is not None else None
     unsettled = run.status is Status.COMPLETED
