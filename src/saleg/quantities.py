@@ -224,6 +224,8 @@ def is_whole(value: Any, low: float = -math.inf, high: float = math.inf) -> bool
 
 def _unpacked(value: Any) -> Any:
     """The Python number in a number or an array without dimensions of numpy and its like."""
+    if hasattr(value, "mask"):  # a masked number is none
+        return value
     try:
         return value.item() if getattr(value, "ndim", None) == 0 else value
     except Exception:  # not of that kind
@@ -270,7 +272,12 @@ def problems(node: Any, path: str = "") -> list[Problem]:
     for field in _fields(kind):
         value = getattr(node, field.name)
         limits = field.metadata.get("limits")
-        if limits is not None and type(value) is limits.kind and limits.low < value < limits.high:
+        if (
+            limits is not None
+            and type(value) is limits.kind
+            and limits.low < value < limits.high
+            and "series" not in field.metadata
+        ):
             continue  # by far the most
         where = f"{path}.{field.name}" if path else field.name
         if "series" in field.metadata:

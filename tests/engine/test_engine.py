@@ -5,6 +5,7 @@ import math
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import saleg
@@ -202,3 +203,10 @@ def test_laws_are_checked_without_being_called(base):
     base.check_laws()
     with pytest.raises(saleg.LawError, match="frozen dataclass"):
         base.replace(springs=Loose()).check_laws()
+
+
+def test_a_name_is_text_and_a_masked_number_none(base):
+    with pytest.raises(saleg.InvalidEngine, match="name = 5: must be text"):
+        saleg.simulate(base.replace(name=5), 0.1)
+    with pytest.raises(saleg.InvalidEngine, match="egr = masked: must be a number"):
+        saleg.simulate(base.replace(egr=np.ma.masked), 0.1)

@@ -211,3 +211,10 @@ def test_a_circuit_at_no_load_is_open():
     assert len(open_circuit) > 1000
     loaded = saleg.simulate(BASE.replace(alternator=laws.CircuitAlternator()), 0.3, history=1)
     assert np.abs(open_circuit.current).max() < 0.05 * np.abs(loaded.history.current).max()
+
+
+@pytest.mark.parametrize("number", [0.5, -0.5, float("nan"), 3])
+def test_a_single_number_is_no_series(number):
+    engine = BASE.replace(ignition=laws.TabulatedDelay(equivalence_ratios=number))
+    with pytest.raises(saleg.InvalidEngine, match=r"equivalence_ratios.*tuple of numbers"):
+        saleg.simulate(engine, 0.1)

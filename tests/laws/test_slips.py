@@ -5,6 +5,7 @@ import functools
 import math
 
 import numba
+import numpy as np
 import pytest
 
 import saleg
@@ -138,7 +139,12 @@ def failing(self, motion):
     return 1.0 / 0.0
 
 
+def drawing(self, motion):
+    return -np.random.random() * motion.x  # noqa: NPY002
+
+
 SLIPS = [
+    (drawing, "draws random numbers"),
     (undefined, "uses 'nothing', which is not defined"),
     (attribute, "uses 'motion.position'.*Motion has t, x, v"),
     (own_attribute, "uses 'self.stifness'.*stiffness"),

@@ -86,3 +86,14 @@ def test_ports_are_passed_where_the_events_say(base):
     passed = beyond_ports(engine, run.strokes)
     assert 0 < passed.sum() < len(passed) // 3
     assert passed.tolist() == in_stroke.tolist()
+
+
+def test_what_is_lit_at_dead_centre_starts_there(base):
+    """Neither before nor after it, and half of the heat is out as late as the law says."""
+    law = base.left.heat_release
+    lit = base.replace(ignition=saleg.laws.IgnitionAtDeadCentre())
+    found = saleg.simulate(lit, 0.5).performance
+    assert found.start_of_combustion == pytest.approx(0.0, abs=1e-12)
+    assert found.start_of_combustion_position == pytest.approx(0.0, abs=1e-12)
+    half = (np.log(2.0 / (1.0 + np.exp(-law.a))) / law.a) ** (1.0 / (law.b + 1.0))
+    assert found.burn_centre == pytest.approx(half * law.combustion_duration, rel=1e-9)

@@ -28,3 +28,21 @@ def test_an_engine_with_next_to_no_heat_is_not_too_coarsely_stepped(base, share)
     run = saleg.simulate(base.replace(**changes), 0.3, rtol=1e-5)
     assert run.status is saleg.Status.COMPLETED, run.message
     assert abs(run.energy.residual) < 1e-5 * np.abs(run.strokes["gas_work"]).max()
+
+
+@pytest.mark.parametrize("rtol", [1e-5, 1e-6, 1e-8])
+@pytest.mark.parametrize("shares", [(0.232, 0.451), (0.451, 0.232)])
+def test_a_trace_of_the_fuel_of_the_start_is_no_firing(base, rtol, shares):
+    """Without fuel an engine is dead, whichever side keeps more of its first burnt charge."""
+    left, right = shares
+    engine = base.replace(
+        **{
+            "half_stroke": 0.128,
+            "port_closing": 0.15,
+            "equivalence_ratio": 0.0,
+            "friction.coefficient": 0.0,
+            "left.egr": left,
+            "right.egr": right,
+        }
+    )
+    assert saleg.steady_state(engine, rtol=rtol).status is saleg.Status.STALLED

@@ -43,6 +43,8 @@ def check_statements(tree: ast.FunctionDef, owner: str) -> None:
             names = getattr(node, "names", ())
             what = ", ".join(getattr(item, "name", item) for item in names)
             raise LawError(f"{owner} {why}{f': {what}' if what else ''}")
+        if "random" in (getattr(node, "attr", ""), getattr(node, "id", "")):
+            raise LawError(f"{owner} draws random numbers; a law gives one number for one state")
         if isinstance(node, ast.Attribute) and not isinstance(node.ctx, ast.Load):
             raise LawError(
                 f"{owner} assigns to '{ast.unparse(node)}'; a law keeps nothing between two calls: "

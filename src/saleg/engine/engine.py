@@ -276,6 +276,8 @@ _CHAMBER_PARTS: dict[str, type] = {**CHAMBER_SLOTS, "intake": Intake, "fuel": Fu
 def _slot_problems(engine: Engine) -> list[Problem]:
     """Parts and laws that are not of the kind their place asks for."""
     found = []
+    if not isinstance(engine.name, str):
+        found.append(Problem("name", engine.name, "-", "must be text"))
     for name, kind in (("translator", Translator), ("start", Start), *ENGINE_SLOTS.items()):
         found += _kind_problem(getattr(engine, name), kind, name)
     for side, chamber in zip(("left", "right"), engine.chambers, strict=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -40,14 +41,15 @@ class Timing(NamedTuple):
 def timing(engine: Engine, strokes: np.ndarray) -> Timing:
     """Combustion timing over the strokes of a cycle; NaN without combustion."""
     found = []
-    for row in strokes:
-        side = 0 if row["direction"] < 0.0 else 1
-        chamber = engine.chambers[side]
+    for row, (side, chamber) in itertools.product(strokes, enumerate(engine.chambers)):
         if row["ignition_time"][side] < 0.0 or not isinstance(chamber, CombustionChamber):
             continue
-        before = float(row["t"] - row["ignition_time"][side])
         sign = 1.0 if side == 0 else -1.0
-        height = chamber.half_stroke + sign * float(row["x_end"])
+        # What is lit at a dead centre, or after it, is lit in the stroke that leaves it.
+        leaves = sign * float(row["direction"]) > 0.0
+        dead_centre = float(row["t"]) - (float(row["duration"]) if leaves else 0.0)
+        before = dead_centre - float(row["ignition_time"][side])
+        height = chamber.half_stroke + sign * float(row["x_start" if leaves else "x_end"])
         half = half_burnt(chamber.heat_release) * float(row["combustion_duration"][side])
         found.append((before, float(row["ignition_height"][side]) - height, half - before))
     if not found:

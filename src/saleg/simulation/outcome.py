@@ -19,6 +19,9 @@ STEADY = 1e-6
 #: Distance from where dead centres, charges and what laws remember are heading, in half strokes or
 #: relative, within which a run is steady.
 NEAR = 1e-4
+#: Heat released, over the greatest work of a gas, up to which a cycle has not fired: fuel of the
+#: start leaves a trace in the residual gas for ever.
+REMNANT = 1e-12
 #: Imbalance of a cycle's energy beyond which it is no result (see :func:`imbalance`).
 MAX_IMBALANCE = 0.05
 #: Cycles over which it must stay below.
@@ -137,7 +140,8 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
 def is_dead(engine: Engine, cycle: np.ndarray) -> bool:
     """Whether an engine with cylinders neither fires in a cycle nor is motored."""
     driven = float(cycle["alternator_work"].sum()) < 0.0
-    return engine.has_combustion and not driven and not float(cycle["heat_released"].sum()) > 0.0
+    heat, work = float(cycle["heat_released"].sum()), float(np.abs(cycle["gas_work"]).max())
+    return engine.has_combustion and not driven and not heat > REMNANT * work
 
 
 def is_idling(engine: Engine, cycle: np.ndarray) -> bool:
