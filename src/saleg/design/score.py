@@ -21,10 +21,8 @@ from saleg.design.terms import (
     Range,
     Reached,
     Repeats,
-    Weighted,
-    mean_miss,
-    weighted_mean,
 )
+from saleg.design.weighted import Weighted, mean_miss, weighted_mean
 from saleg.quantities import Problem, Quantities, as_float, problems, quantity
 
 #: Figures with a weight.

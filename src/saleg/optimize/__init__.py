@@ -24,10 +24,9 @@ from saleg.design.terms import (
     Reached,
     Repeats,
     Term,
-    Weighted,
-    WeightedScore,
     Within,
 )
+from saleg.design.weighted import Weighted, WeightedScore
 from saleg.errors import Problem as _Wrong
 from saleg.optimize.log import OptimisationError
 from saleg.optimize.loop import Progress, optimize

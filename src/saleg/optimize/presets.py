@@ -10,7 +10,8 @@ import numpy as np
 
 from saleg.design.designs import Design
 from saleg.design.score import Score
-from saleg.design.terms import Bell, Below, InvalidScore, Reached, Weighted, WeightedScore, Within
+from saleg.design.terms import Bell, Below, InvalidScore, Reached, Within
+from saleg.design.weighted import Weighted, WeightedScore
 from saleg.errors import Problem as Wrong
 from saleg.optimize.methods import GeneticAlgorithm
 from saleg.optimize.problem import Problem

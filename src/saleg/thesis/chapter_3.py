@@ -12,9 +12,8 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from saleg import Run, plotting, simulate, studies
 from saleg.design import Design
@@ -24,6 +23,7 @@ from saleg.plotting import studies as figures
 from saleg.studies import sensitivity
 from saleg.studies.sensitivity import Study
 from saleg.thesis.beside import comparison
+from saleg.thesis.figure import Figure
 from saleg.thesis.tables import TABLE_2, TABLE_3, TABLE_4, TABLE_5
 
 if TYPE_CHECKING:
@@ -145,21 +145,6 @@ def _multiplied(path: str, factors: tuple[float, ...]) -> Study:
 
 def _draw_durations(study: Study, ax: Any = None) -> Any:
     return curves.trends(study.table, ax=ax, logarithmic=True)
-
-
-class Figure(NamedTuple):
-    """Figure of the chapter.
-
-    Attributes
-    ----------
-    run : callable
-        Gives what is drawn.
-    draw : callable
-        Draws it, on axes handed in or on new ones.
-    """
-
-    run: Callable[[], Any]
-    draw: Callable[..., Any]
 
 
 #: Figures by their number.

@@ -11,9 +11,9 @@ Examples
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from saleg.optimize import NSGA2, Found, Limit, Objective, Problem, Score
 from saleg.plotting import optimisation as figures
 from saleg.plotting.scores import score_terms
 from saleg.thesis import chapter_4
+from saleg.thesis.figure import Figure
 from saleg.thesis.tables import columns
 
 if TYPE_CHECKING:
@@ -327,21 +328,6 @@ def by_power(
             row[f"{name}_5"], row[f"{name}_95"] = good[name].quantile([0.05, 0.95])
         rows.append(row)
     return pd.DataFrame(rows)
-
-
-class Figure(NamedTuple):
-    """Figure of the section.
-
-    Attributes
-    ----------
-    run : callable
-        Gives what is drawn.
-    draw : callable
-        Draws it, on axes handed in or on new ones.
-    """
-
-    run: Callable[..., Any]
-    draw: Callable[..., Any]
 
 
 #: Figures by their number. Those of an optimisation may share one: run it once, draw it often.

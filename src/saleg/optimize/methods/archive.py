@@ -13,7 +13,7 @@ from saleg.errors import Problem as Wrong
 from saleg.errors import nearest
 from saleg.optimize.methods.base import Method, Search, Start, mean_of
 from saleg.optimize.problem import MISSES, Problem, Told
-from saleg.quantities import is_number, is_whole, problems, quantity
+from saleg.quantities import is_number, is_whole, quantity
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -83,7 +83,6 @@ class Archive(Method):
     def wrong(self, problem: Problem) -> Iterator[Wrong]:
         """All that keeps it from being used for a problem."""
         yield from super().wrong(problem)
-        yield from problems(self, "method")
         yield from wrong_axes("method.axes", self.axes, problem)
 
 

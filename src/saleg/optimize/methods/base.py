@@ -7,6 +7,7 @@ interrupted is got back by telling it again what it asked for.
 
 from __future__ import annotations
 
+import dataclasses
 import importlib.util
 from collections.abc import Iterator
 from typing import Any, NamedTuple, Protocol
@@ -16,6 +17,7 @@ import numpy as np
 from saleg.errors import Problem as Wrong
 from saleg.optimize.fronts import first_front
 from saleg.optimize.problem import MISSES, Problem, Told
+from saleg.quantities import problems
 
 
 class Start(NamedTuple):
@@ -79,7 +81,9 @@ class Method:
         return np.array([int(np.argmax(told.fitness))])
 
     def wrong(self, problem: Problem) -> Iterator[Wrong]:
-        """All that keeps it from being used for a problem."""
+        """All that keeps it from being used for a problem, its settings first."""
+        if dataclasses.is_dataclass(self):
+            yield from problems(self, "method")
         name = type(self).__name__
         if self.package and importlib.util.find_spec(self.package) is None:
             need = f'needs {self.package}: pip install "saleg[optimize]"'

@@ -12,7 +12,7 @@ import numpy as np
 from saleg.errors import Problem as Wrong
 from saleg.optimize.methods.base import Method, Search, Start, mean_of, plain
 from saleg.optimize.problem import Problem, Told
-from saleg.quantities import problems, quantity
+from saleg.quantities import quantity
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +49,6 @@ class CMAES(Method):
     def wrong(self, problem: Problem) -> Iterator[Wrong]:
         """All that keeps it from being used for a problem."""
         yield from super().wrong(problem)
-        yield from problems(self, "method")
         if len(problem.bounds) == 1:
             yield Wrong("method", "CMAES", "-", "needs two parameters at least")
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from saleg.errors import Problem as Wrong
 from saleg.optimize.methods.base import Method, Search, Start, mean_of
-from saleg.optimize.problem import Problem, Told
-from saleg.quantities import problems, quantity
+from saleg.optimize.problem import Told
+from saleg.quantities import quantity
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,11 +34,6 @@ class CompassSearch(Method):
     def begin(self, start: Start) -> Search:
         """Begin at the best of the start."""
         return _Search(self, start)
-
-    def wrong(self, problem: Problem) -> Iterator[Wrong]:
-        """All that keeps it from being used for a problem."""
-        yield from super().wrong(problem)
-        yield from problems(self, "method")
 
 
 class _Search:

@@ -13,7 +13,7 @@ from saleg.errors import Problem as Wrong
 from saleg.errors import nearest
 from saleg.optimize.methods.base import Method, Search, Start, mean_of, plain
 from saleg.optimize.problem import Problem, Told
-from saleg.quantities import as_float, problems, quantity
+from saleg.quantities import as_float, quantity
 
 #: Strategies of scipy.
 STRATEGIES = tuple(
@@ -58,7 +58,6 @@ class DifferentialEvolution(Method):
     def wrong(self, problem: Problem) -> Iterator[Wrong]:
         """All that keeps it from being used for a problem."""
         yield from super().wrong(problem)
-        yield from problems(self, "method")
         if self.strategy not in STRATEGIES:
             hint = nearest(self.strategy, STRATEGIES) or f"; there are {', '.join(STRATEGIES)}"
             yield Wrong("method.strategy", self.strategy, "-", f"unknown{hint}")

@@ -11,7 +11,7 @@ import numpy as np
 from saleg.errors import Problem as Wrong
 from saleg.optimize.methods.base import Method, Search, Start, mean_of
 from saleg.optimize.problem import Problem, Told
-from saleg.quantities import as_float, problems, quantity
+from saleg.quantities import as_float, quantity
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,11 +57,9 @@ class GeneticAlgorithm(Method):
     def wrong(self, problem: Problem) -> Iterator[Wrong]:
         """All that keeps it from being used for a problem."""
         yield from super().wrong(problem)
-        found = problems(self, "method")
-        yield from found
         if as_float(self.stop) is None or math.isnan(self.stop):
             yield Wrong("method.stop", self.stop, "-", "must be a number")
-        if not found and self.mutation + self.crossover == 0.0:
+        if self.mutation == 0.0 == self.crossover:
             yield Wrong(
                 "method.mutation", 0.0, "-", "no children: mutation or crossover must be > 0"
             )

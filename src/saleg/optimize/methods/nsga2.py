@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from saleg.errors import Problem as Wrong
 from saleg.optimize.methods.base import Method, Search, Start, mean_of, plain
-from saleg.optimize.problem import Problem, Told
-from saleg.quantities import problems, quantity
+from saleg.optimize.problem import Told
+from saleg.quantities import quantity
 
 #: What a design without a steady state has as every objective, and misses the limits by.
 WORST = 1e9
@@ -42,11 +40,6 @@ class NSGA2(Method):
     def begin(self, start: Start) -> Search:
         """Begin with a population."""
         return _Search(self, start)
-
-    def wrong(self, problem: Problem) -> Iterator[Wrong]:
-        """All that keeps it from being used for a problem."""
-        yield from super().wrong(problem)
-        yield from problems(self, "method")
 
 
 class _Search:
