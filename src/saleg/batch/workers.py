@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import multiprocessing.process
 import os
 import pickle
 import threading
@@ -20,10 +18,13 @@ from concurrent.futures import (
 )
 from contextlib import nullcontext
 from functools import lru_cache, partial
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from saleg.quantities import is_whole
 from saleg.simulation.settings import SettingsError
+
+if TYPE_CHECKING:
+    from multiprocessing.process import BaseProcess
 
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")
@@ -183,13 +184,15 @@ def end_with_parent() -> None:
 
     One that was killed cannot say so, and a worker would wait for work without end.
     """
+    import multiprocessing
+
     parent = multiprocessing.parent_process()
     if parent is not None:
         _watch(parent)
 
 
 @lru_cache
-def _watch(parent: multiprocessing.process.BaseProcess) -> None:
+def _watch(parent: BaseProcess) -> None:
     """End this process after another, watched by a thread."""
 
     def end() -> None:
