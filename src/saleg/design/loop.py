@@ -29,7 +29,7 @@ from saleg.simulation.course import STEPS_PER_CALL
 from saleg.simulation.initial_state import State, prepare
 from saleg.status import Status
 from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
-from saleg.steady.slow_states import find_settled
+from saleg.steady.slow_states import find_settled, finer, is_sharp
 from saleg.steady.solver import (
     DEFAULT_TOLERANCE,
     MAX_MAPS,
@@ -238,9 +238,17 @@ def _first_orbit(
     for chart, way in ways:
         orbit = _closed(design, chart, rtol, way, quick)
         spent = Spent(spent.half_cycles + orbit.half_cycles, spent.evaluations + chart.evaluations)
-        if orbit.found:
-            steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
-            return DesignedState.of(steady, design, orbit.operation), spent
+        if not orbit.found:
+            continue
+        if not orbit.sharp:
+            sharper = chart.finer(finer(rtol))
+            again = _closed(design, sharper, finer(rtol), way, quick)
+            anew = sharper.evaluations - chart.evaluations
+            spent = Spent(spent.half_cycles + again.half_cycles, spent.evaluations + anew)
+            if again.found:
+                chart, orbit, rtol = sharper, again, finer(rtol)
+        steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
+        return DesignedState.of(steady, design, orbit.operation), spent
     return None, spent
 
 
@@ -328,6 +336,7 @@ class _Orbit(NamedTuple):
     """What closing the loop on one return map came to."""
 
     found: bool
+    sharp: bool
     half_cycles: int
     residual: float
     operation: Operation
@@ -348,8 +357,9 @@ def _closed(design: Design, chart: ReturnMap, rtol: float, way: Way, quick: bool
         if abs(_mass(design, operation) / mass - 1.0) <= MASS_TOLERANCE * rtol:
             chart.engine = dataclasses.replace(chart.engine, translator=Translator(mass))
             _give_mass(chart)
-            return _Orbit(converged(found, rtol), spent, found.missed, operation)
-    return _Orbit(False, spent, math.nan, operation)
+            sharp = is_sharp(chart, found, rtol)
+            return _Orbit(converged(found, rtol), sharp, spent, found.missed, operation)
+    return _Orbit(False, False, spent, math.nan, operation)
 
 
 def _set_mass(state: State, design: Design, operation: Operation) -> None:

@@ -336,9 +336,11 @@ FILLED_RECORD = np.dtype([(name, np.int64) for name in ("strokes", "events", "hi
 SIGNALS_RECORD = np.dtype([(name, np.float64) for name in Signals._fields])
 COMMANDS_RECORD = np.dtype([(name, np.float64) for name in Commands._fields])
 
-#: How the search for a fixed point went: maps taken, how far the last image is from its point, and
-#: how far a whole cycle misses its start.
-SEARCH_RECORD = np.dtype([(name, np.float64) for name in ("maps", "residual", "missed")])
+#: How the search for a fixed point went: maps taken, how far the last image is from its point, how
+#: many times that the fixed point may be away, and how far a whole cycle misses its start.
+SEARCH_RECORD = np.dtype(
+    [(name, np.float64) for name in ("maps", "residual", "slowness", "missed")]
+)
 
 #: What the caller asks of the integrator.
 OPTIONS_RECORD = np.dtype(

@@ -38,6 +38,8 @@ SINGULAR = 1e-10
 # Half cycles of plain iteration before extrapolation begins, and how far it may go at once.
 WARM_UP = 2
 FARTHEST = 0.5
+# Distance from the fixed point, over the residual asked for, within which a point is taken.
+NEAR = 100.0
 # Entries of the vector: first those of the engine, then per side.
 Z_POSITION = 0
 Z_LN_SPEED = 1
@@ -263,6 +265,21 @@ def extrapolate(iterates, known):
 
 
 @compiled
+def slowness(iterates, known):
+    """Distance from the fixed point over the residual, at most, between the latest points.
+
+    What decays by a factor m per return is ``1 / (1 - m)`` residuals away from where it will end.
+    """
+    z, f, z_old, f_old = iterates.point, iterates.residual, iterates.points, iterates.residuals
+    slowest = 1.0
+    for i in range(known):
+        way, change = distance(z, z_old[i]), distance(f, f_old[i])
+        if way > slowest * change:
+            slowest = way / max(change, 1e-300)
+    return slowest
+
+
+@compiled
 def push(z, f, z_old, f_old):
     """Remember a point and its residual as the latest."""
     for i in range(DEPTH - 1, 0, -1):
@@ -333,10 +350,13 @@ def find_orbit(mapping, max_maps, tolerance, iterates, found):
         found.residual = distance(image, z)
         for n in range(N_VECTOR):
             f[n] = image[n] - z[n]
-        if alike and found.residual <= tolerance:
-            return whole_cycle(mapping, iterates, found)
         if not alike:
             known = 0
+        if alike and found.residual <= tolerance:
+            found.slowness = slowness(iterates, min(known, DEPTH))
+            # A small residual is no small distance.
+            if found.slowness * found.residual <= NEAR * tolerance:
+                return whole_cycle(mapping, iterates, found)
         trusted = known > 0 and count >= WARM_UP
         trusted = trusted and extrapolate(iterates, min(known, DEPTH))
         if alike:

@@ -27,7 +27,6 @@ from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import (
     NoReturn,
     ReturnMap,
-    is_symmetric,
     repeats_itself,
 )
 from saleg.steady.sealed_gas import (
@@ -233,7 +232,7 @@ def branch(
     first = steady_state(engine, rtol=1e-9)
     if not first.found or first.replay is None:
         raise NoBranch(f"no steady state to begin with: {first.message}")
-    follower = _Follower(engine, path, float(start), end, longest)
+    follower = _Follower(first, path, float(start), end, longest)
     points: list[Point] = []
     for point in follower.points(first):
         points.append(point)
@@ -246,11 +245,11 @@ def branch(
 class _Follower:
     """Predictor and corrector; the parameter is measured from the start in units of the way."""
 
-    def __init__(self, engine: Engine, path: str, start: float, stop: float, longest: float):
-        self.engine, self.path = engine, path
+    def __init__(self, first: SteadyState, path: str, start: float, stop: float, longest: float):
+        self.engine, self.path = first.engine, path
         self.start, self.way = start, stop - start
         self.longest = longest / abs(self.way)
-        self.mirrored = is_symmetric(engine)
+        self.mirrored = first.mirrored
         self.ended, self.trouble = "", 0
 
     def engine_at(self, s: float) -> Engine:

@@ -92,6 +92,8 @@ class Search(NamedTuple):
         Maps taken.
     residual : float
         How far the last image is from its point [-].
+    slowness : float
+        How many residuals the fixed point may be away, by the points of the search [-].
     missed : float
         How far the whole cycle after it misses its start [-].
     """
@@ -99,6 +101,7 @@ class Search(NamedTuple):
     code: int
     maps: float
     residual: float
+    slowness: float
     missed: float
 
 
@@ -175,6 +178,11 @@ class ReturnMap:
             mirrored=mirrored,
         )
         return cls(engine, searched.kernel, state, mirrored, strokes, mapping, _iterates())
+
+    def finer(self, rtol: float) -> ReturnMap:
+        """The same map with another tolerance, from a copy of the present state."""
+        most_steps = int(self.mapping.integration.options["max_steps"][0])
+        return ReturnMap.of(self.engine, self.state.copy(), rtol, self.mirrored, most_steps)
 
     @property
     def snapshots(self) -> Snapshots:

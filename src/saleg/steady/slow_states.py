@@ -11,6 +11,7 @@ import numpy as np
 
 from saleg.kernel import layout
 from saleg.simulation.initial_state import State
+from saleg.simulation.outcome import imbalance
 from saleg.steady.return_map import NoReturn, ReturnMap, Search, conserved_entries, is_adiabatic
 from saleg.steady.sealed_gas import rise_of_theta
 from saleg.steady.stability import FINE
@@ -22,6 +23,14 @@ NEAR = 100.0
 SLOW = 0.1
 #: Jumps of Newton's method.
 MAX_JUMPS = 30
+#: Slowness of a map from which the error of its steps counts: it displaces the fixed point by as
+#: many times itself.
+SLOWEST = 30.0
+#: Imbalance of a cycle's energy, over its largest term, from which its steps are too coarse.
+COARSE = 1e-6
+#: Factor on the tolerance of an orbit that is found anew with finer steps, and the finest there is.
+FINER = 1e-2
+FINEST = 1e-9
 
 
 def find_settled(
@@ -68,6 +77,19 @@ def find_settled(
         if not give_back_entropy(return_map, begin, NEAR * tolerance):
             return found, strokes
     return found._replace(code=layout.NOT_FOUND), strokes
+
+
+def is_sharp(return_map: ReturnMap, found: Search, rtol: float) -> bool:
+    """Whether the steps were fine enough for the orbit just found, or can be no finer."""
+    if rtol <= FINEST:
+        return True
+    off = imbalance(return_map.strokes[1], return_map.strokes[:2])
+    return found.slowness <= SLOWEST and off <= max(COARSE, rtol)
+
+
+def finer(rtol: float) -> float:
+    """Tolerance with which an orbit is found anew."""
+    return max(FINER * rtol, FINEST)
 
 
 def is_near(return_map: ReturnMap, distance: float) -> bool:

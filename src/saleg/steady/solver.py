@@ -31,7 +31,7 @@ from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
-from saleg.steady.slow_states import find_settled
+from saleg.steady.slow_states import FINEST, find_settled, finer, is_sharp
 from saleg.steady.stability import Stability, stability
 
 DEFAULT_TOLERANCE = 1e-6
@@ -44,9 +44,6 @@ RESIDUAL = 1.0
 MAX_MISSED = 100.0
 #: The same beyond which a mirrored orbit is looked for again without the mirror.
 MIRROR_MISSED = 10.0
-#: Factor on the tolerance with which an engine that seems unsteady is tried once more.
-FINER = 1e-2
-FINEST = 1e-9
 #: Imbalance of the energy of a cycle beyond which a fixed point does not count, over the tolerance
 #: of the integrator, but not below what a force with corners of its own may leave.
 ENERGY = 1e3
@@ -104,6 +101,9 @@ class SteadyState:
         search has found nothing.
     strokes : ndarray of STROKE_RECORD
         The two strokes of the cycle, read-only; empty without one.
+    mirrored : bool
+        Whether the second stroke is known to be the mirror image of the first: found by the map of
+        half a cycle. A symmetric engine may also run on an orbit that is not.
     """
 
     engine: Engine
@@ -114,6 +114,7 @@ class SteadyState:
     residual: float
     method: str
     strokes: np.ndarray = field(repr=False)
+    mirrored: bool = False
     replay: Replay | None = field(default=None, repr=False)
     fallback: Run | None = field(default=None, repr=False)
 
@@ -174,7 +175,7 @@ class SteadyState:
             raise NoSteadyState(f"no steady state to differentiate: {self.message}")
         if not self.has_multipliers:
             raise NoSteadyState(f"no return map to differentiate: {self.message}")
-        return stability(self.replay, float(self.strokes["duration"].sum()))
+        return stability(self.replay, self.mirrored, float(self.strokes["duration"].sum()))
 
     @property
     def has_multipliers(self) -> bool:
@@ -279,7 +280,7 @@ def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> Steady
     found = _solved(engine, rtol, max_maps, quick)
     if found.status is Status.UNSTEADY and rtol > FINEST and not _is_given_up(found.fallback):
         # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
-        again = _solved(engine, max(FINER * rtol, FINEST), max_maps, quick)
+        again = _solved(engine, finer(rtol), max_maps, quick)
         return replace(
             again,
             half_cycles=again.half_cycles + found.half_cycles,
@@ -328,8 +329,16 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
         evaluations += return_map.evaluations
         if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
             continue  # unstable, or not as symmetric as it looks
-        if converged(found, rtol):
-            return result_of(return_map, spent, evaluations, found.missed, "fixed point", rtol)
+        if not converged(found, rtol):
+            continue
+        if not is_sharp(return_map, found, rtol):
+            sharper = return_map.finer(finer(rtol))
+            again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
+            spent += strokes
+            evaluations += sharper.evaluations - return_map.evaluations
+            if converged(again, finer(rtol)):
+                return_map, found, rtol = sharper, again, finer(rtol)
+        return result_of(return_map, spent, evaluations, found.missed, "fixed point", rtol)
     if quick:
         return not_found(engine, spent, evaluations, "no orbit from the standard starts")
     return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
@@ -385,6 +394,7 @@ def result_of(
         residual=residual,
         method=method,
         strokes=strokes,
+        mirrored=return_map.mirrored,
         replay=Replay(engine, snapshots, settings),
     )
 

@@ -11,7 +11,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.simulation.course import Replay
 from saleg.simulation.run import read_only
-from saleg.steady.return_map import NoReturn, ReturnMap, is_symmetric, sealed_entries
+from saleg.steady.return_map import NoReturn, ReturnMap, sealed_entries
 
 #: Tolerance of the integrator for differences of the map, which magnify its error.
 FINE = 1e-11
@@ -58,13 +58,16 @@ class Stability:
         return self.kind == "stable"
 
 
-def stability(replay: Replay, period: float) -> Stability:
+def stability(replay: Replay, mirrored: bool, period: float) -> Stability:
     """Stability of a steady state: what the multipliers of its return map say.
 
     Parameters
     ----------
     replay : Replay
         The cycle of the steady state.
+    mirrored : bool
+        Whether its second half is the mirror image of its first, so that the map of half a cycle
+        returns to it.
     period : float
         How long it takes [s].
 
@@ -72,7 +75,6 @@ def stability(replay: Replay, period: float) -> Stability:
     -------
     Stability
     """
-    mirrored = is_symmetric(replay.engine)
     try:
         return judged(map_multipliers(replay, mirrored), mirrored, period)
     except NoReturn:
