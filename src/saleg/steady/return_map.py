@@ -179,9 +179,10 @@ class ReturnMap:
         )
         return cls(engine, searched.kernel, state, mirrored, strokes, mapping, _iterates())
 
-    def finer(self, rtol: float) -> ReturnMap:
+    def finer(self, rtol: float, most_steps: int | None = None) -> ReturnMap:
         """The same map with another tolerance, from a copy of the present state."""
-        most_steps = int(self.mapping.integration.options["max_steps"][0])
+        if most_steps is None:
+            most_steps = int(self.mapping.integration.options["max_steps"][0])
         return ReturnMap.of(self.engine, self.state.copy(), rtol, self.mirrored, most_steps)
 
     @property

@@ -21,8 +21,11 @@ from saleg.steady.stability import FINE
 NEAR = 100.0
 #: Residual up to which what did not settle may only be slow.
 SLOW = 0.1
-#: Jumps of Newton's method.
+#: Jumps of Newton's method, and those no shorter than the shortest before after which it gives up.
 MAX_JUMPS = 30
+MAX_VAIN_JUMPS = 3
+#: Steps to one return that differences of the map may take; the base case takes four hundred.
+FINE_STEPS = 3000
 #: Slowness of a map from which the error of its steps counts: it displaces the fixed point by as
 #: many times itself.
 SLOWEST = 30.0
@@ -57,6 +60,7 @@ def find_settled(
     """
     strokes, slow = 0, False
     begin, smallest = return_map.state.copy(), SLOW
+    shortest, vain = np.inf, 0
     for _ in range(MAX_JUMPS):
         found = return_map.find(max_maps, tolerance)
         settled = found.code == layout.END_OF_TIME
@@ -71,7 +75,12 @@ def find_settled(
             slow, jump = True, newton_step(return_map)
             if jump is None:
                 break
-            if not settled or np.abs(jump).max() > NEAR * tolerance:
+            length = float(np.abs(jump).max())
+            vain += length >= shortest
+            if vain >= MAX_VAIN_JUMPS:
+                break
+            shortest = min(shortest, length)
+            if not settled or length > NEAR * tolerance:
                 return_map.jump(jump)
                 continue
         if not give_back_entropy(return_map, begin, NEAR * tolerance):
@@ -110,7 +119,7 @@ def newton_step(return_map: ReturnMap) -> np.ndarray | None:
     """Way from the present state to the fixed point, as Newton's method has it; None if unknown."""
     state = return_map.state
     start = State(state.engine.copy(), state.chambers.copy(), state.y.copy(), np.zeros(0))
-    fine = ReturnMap.of(return_map.engine, return_map.state.copy(), FINE, return_map.mirrored)
+    fine = return_map.finer(FINE, FINE_STEPS)
     try:
         z = fine.vector(start)
         residual = fine.image(start, z) - z
