@@ -426,3 +426,10 @@ def test_a_run_remarks_on_what_no_engine_comes_near(base):
     (remark,) = [text for text in harsh.remarks if "pressure" in text]
     assert f"{harsh.performance.peak_pressure / 1e5:.4g} bar" in remark
     assert f"beyond what is built: {remark}" in str(harsh)
+
+
+def test_walls_that_heat_the_gas_are_remarked_on(base):
+    """Walls at 2500 K give a cycle more than its fuel: the efficiency alone looks like a marvel."""
+    hot = saleg.steady_state(base.replace(wall_temperature=2500.0, equivalence_ratio=0.1))
+    assert hot.energy.heat_transfer < -hot.energy.released < 0.0
+    assert any("heat from the walls" in text for text in hot.remarks)

@@ -248,6 +248,8 @@ def remarks_on(engine: Engine, performance: Performance, strokes: np.ndarray) ->
         found.append(f"compression ratio {ratio:.4g} (> {MAX_COMPRESSION_RATIO:g})")
     if speed > MAX_PISTON_SPEED:
         found.append(f"mean piston speed {speed:.4g} m/s (> {MAX_PISTON_SPEED:g})")
+    if -strokes["heat_lost"].sum() > strokes["heat_released"].sum() > 0.0:
+        found.append("more heat from the walls than from the fuel: the efficiency counts fuel only")
     return found
 
 
