@@ -43,7 +43,7 @@ def test_the_sample_in_the_docstring_is_of_the_text(text):
 def test_the_parts_stand_in_the_order_of_the_docstring(text):
     parts = re.findall(r"^# --- (\S+)\.py$", text, flags=re.MULTILINE)
     assert parts[0] == "laws/arguments"
-    first = parts.index("kernel/rhs")
+    first = parts.index(f"kernel/{INTEGRATOR[0]}")
     assert parts[first : first + len(INTEGRATOR)] == [f"kernel/{name}" for name in INTEGRATOR]
 
 

@@ -7,8 +7,8 @@ Three facts to begin with:
 - **All parts share one namespace.** A name defined in two of them is refused, and what a law brings
   along (helpers, constants) gets a prefix of its slot.
 - **This is the order:** what laws are shown (``laws/arguments``), what of the kernel needs no law,
-  the slots filled with laws (in place of ``kernel/slots``), then the kernel: ``rhs``, ``step``,
-  ``events``, ... ``integrate``.
+  the slots filled with laws (in place of ``kernel/slots``), then the kernel: ``needs`` and
+  ``adaptive``, written for these laws, ``rhs``, ``step``, ``events``, ... ``integrate``.
 
 So a composed module reads, much shortened::
 
@@ -39,7 +39,9 @@ So a composed module reads, much shortened::
 Where to look: :mod:`~saleg.compiler.compiled_engine` is the door the other floors come in by;
 :mod:`~saleg.compiler.text` composes, of methods that :mod:`~saleg.compiler.imported_text` finds,
 :mod:`~saleg.compiler.slips` checks, :mod:`~saleg.compiler.source` makes ready and
-:mod:`~saleg.compiler.strength_reduction` makes cheap; :mod:`~saleg.compiler.diagnosis` names the
+:mod:`~saleg.compiler.strength_reduction` makes cheap, with the step that
+:mod:`~saleg.compiler.unrolled` writes out for what the laws need
+(:mod:`~saleg.compiler.needs`); :mod:`~saleg.compiler.diagnosis` names the
 one that fails; :mod:`~saleg.compiler.module` executes the
 text, kept in the :mod:`~saleg.compiler.cache`; :mod:`~saleg.compiler.kernel` calls it, through
 :mod:`~saleg.compiler.machine_code`; :mod:`~saleg.compiler.records` holds the numbers.

@@ -58,6 +58,7 @@ def compiled_engine(
     *,
     asks: bool = True,
     modules: tuple[str, ...] = INTEGRATOR,
+    motored_pressure: bool = False,
 ) -> CompiledEngine:
     """Kernel, numbers and controller of an engine; compilation waits for the first call.
 
@@ -70,6 +71,8 @@ def compiled_engine(
         Whether the kernel asks the controller at dead centres; if not, its caller does.
     modules : tuple of str
         Modules of the kernel.
+    motored_pressure : bool
+        Whether the motored pressure is integrated though no law asks for it.
 
     Raises
     ------
@@ -79,7 +82,8 @@ def compiled_engine(
     laws = _laws_in_order(engine, controller.actuators if controller is not None else None)
     control = control_of(controller) if controller is not None and asks else nobody()
     numbers = plain.plain_laws(laws) if plain.is_wanted() else records.parameters(laws)
-    return CompiledEngine(_kernel(laws, modules), numbers, control)
+    motored = motored_pressure or engine.needs_motored_pressure
+    return CompiledEngine(_kernel(laws, modules, motored), numbers, control)
 
 
 def kernel_for(
@@ -92,7 +96,8 @@ def kernel_for(
     Composed once per choice of laws, and anew when a law, or a helper or constant it uses, has
     been changed in this process, as in a notebook.
     """
-    return _kernel(_laws_in_order(engine, actuators), modules)
+    laws = _laws_in_order(engine, actuators)
+    return _kernel(laws, modules, engine.needs_motored_pressure)
 
 
 def check_methods(laws: Iterable[Law]) -> None:
@@ -129,12 +134,12 @@ def _laws_in_order(engine: Engine, actuators: ActuatorLaw | None) -> list[Law]:
     return [*laws, actuators or IDLE_ACTUATORS]
 
 
-def _kernel(laws: list[Law], modules: tuple[str, ...]) -> Kernel:
+def _kernel(laws: list[Law], modules: tuple[str, ...], motored_pressure: bool) -> Kernel:
     if plain.is_wanted():
         return plain.plain_kernel(modules)
     classes: tuple[Any, ...] = tuple(map(type, laws))
     state = tuple(map(fingerprint, _own(classes)))
-    return _composed(classes, modules, records.lengths_of_all(laws), state)
+    return _composed(classes, modules, motored_pressure, records.lengths_of_all(laws), state)
 
 
 @lru_cache(maxsize=256)
@@ -147,6 +152,7 @@ def _own(classes: tuple[Any, ...]) -> tuple[type[Law], ...]:
 def _composed(
     classes: tuple[type[Law], ...],
     modules: tuple[str, ...],
+    motored_pressure: bool,
     lengths: tuple[Lengths, ...],
     state: tuple[object, ...],
 ) -> Kernel:
@@ -155,10 +161,10 @@ def _composed(
     own = [kind for kind in kinds if not is_ours(kind[0])]
     injected: dict[str, Any] = {}
     try:
-        text = compose(classes, modules)
+        text = compose(classes, modules, motored_pressure=motored_pressure)
     except NoSource as error:
         warn_if_edited(error)
-        text = compose(classes, modules, injected=injected)
+        text = compose(classes, modules, motored_pressure=motored_pressure, injected=injected)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     # What is compiled from bytecode is not kept: the text does not say all of it.
     return Kernel(*load(text, "kernel", injected, keeps=not injected), own)

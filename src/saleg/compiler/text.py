@@ -1,7 +1,8 @@
 """The text of a composed module: modules of the kernel as they stand, slots filled with laws.
 
-Only the slots (:mod:`saleg.kernel.slots` in plain Python) are written anew, each as a function that
-calls the law of its side with the law's record.
+Written anew are only the slots (:mod:`saleg.kernel.slots` in plain Python), each as a function that
+calls the law of its side with the law's record, what the laws need (:mod:`~saleg.compiler.needs`),
+and the step of the adaptive pair (:mod:`~saleg.compiler.unrolled`).
 """
 
 from __future__ import annotations
@@ -14,9 +15,11 @@ from typing import Any
 
 from saleg.compiler.imported_text import NoSource
 from saleg.compiler.module import without_source
+from saleg.compiler.needs import QUADRATURES, Needs
 from saleg.compiler.records import OTHER_SLOTS
 from saleg.compiler.source import Borrowed, earlier_attributes
 from saleg.compiler.strength_reduction import EXPONENTIAL
+from saleg.compiler.unrolled import adaptive_step
 from saleg.errors import LawError
 from saleg.laws import Law
 from saleg.laws.base import CHAMBER_SLOTS
@@ -34,7 +37,10 @@ BEFORE_SLOTS = (
 )
 #: Modules of the kernel that make up the integrator.
 INTEGRATOR = (
+    "needs",
     "rhs",
+    "general",
+    "adaptive",
     "step",
     "events",
     "peaks",
@@ -55,7 +61,8 @@ SEARCH = (
 )
 INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "run_plainly")
 
-#: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. Only entry points get
+#: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. A function first met in one
+#: that is folded into its callers would inherit that, if it were not told. Only entry points get
 #: wrappers for Python, which halves the time to compile. Nothing in a kernel allocates, so nothing
 #: need be counted (`_nrt`): counting references to the arrays took a third of the time.
 COMPILED_HEADER = """\
@@ -67,7 +74,11 @@ inline = numba.njit(
     no_cfunc_wrapper=True,
 )
 compiled = numba.njit(
-    error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
+    forceinline=False,
+    error_model="numpy",
+    _nrt=False,
+    no_cpython_wrapper=True,
+    no_cfunc_wrapper=True,
 )
 """
 #: What a module is loaded with says whether it is kept.
@@ -78,6 +89,7 @@ def compose(
     classes: Sequence[type[Law]],
     modules: Sequence[str] = INTEGRATOR,
     *,
+    motored_pressure: bool = False,
     injected: dict[str, Any] | None = None,
 ) -> str:
     """Text of a composed module.
@@ -88,6 +100,8 @@ def compose(
         Classes of the laws, in the order of the record: left, right, engine, actuators.
     modules : sequence of str
         Modules of the kernel.
+    motored_pressure : bool
+        Whether the motored pressure is integrated.
     injected : dict, optional
         Takes the methods whose source cannot be had, by the names the text calls them.
 
@@ -106,8 +120,20 @@ def compose(
         parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
     for (name, base), law in zip(OTHER_SLOTS.items(), rest, strict=True):
         parts += _engine_slot(name, base, law, injected)
-    parts += [own_text(f"kernel/{name}.py") for name in modules]
+    needs = Needs.of(classes, motored_pressure)
+    parts += [_kernel_text(name, needs) for name in modules]
     return _joined(parts)
+
+
+def _kernel_text(name: str, needs: Needs) -> str:
+    """Text of a module of the kernel, or of what stands in its place."""
+    if name == "needs":
+        written = needs.text
+    elif name == "adaptive":
+        written = adaptive_step(needs.states, needs.kept, QUADRATURES)
+    else:
+        return own_text(f"kernel/{name}.py")
+    return f"# --- kernel/{name}.py\n{written}"
 
 
 def compose_search() -> str:

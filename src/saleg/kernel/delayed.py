@@ -12,23 +12,27 @@ from saleg.kernel.layout import (
     BUFFER_FULL,
     DEAD_CENTRE,
     END_OF_TIME,
+    LEFT,
     N_ALL,
+    RIGHT,
     STALLED,
     STEP_FAILURE,
     V,
 )
 from saleg.kernel.peaks import watch_point
-from saleg.kernel.rhs import chamber_rates, rates_of_motion, refresh
+from saleg.kernel.rhs import chamber_rates, gas_force, rates_of_motion, refresh, write_chamber
 from saleg.kernel.switch import has_room, switch
 
 
 @compiled
 def lagging_rhs(P, E, C, t, y, dy, delay, late_force, motored):
     """Rates with a late gas force, or that of now if nothing lags; returns the one of now."""
-    force = 0.0
-    for side in range(2):
-        force += C[side].sign * C[side].area * chamber_rates(P, E, C, side, t, y, dy, motored)
+    left = chamber_rates(P, E, C, LEFT, t, y, motored)
+    right = chamber_rates(P, E, C, RIGHT, t, y, motored)
+    force = gas_force(C, left, right)
     rates_of_motion(P, E, t, y, dy, late_force if delay > 0 else force)
+    write_chamber(C, LEFT, y[V], left, dy)
+    write_chamber(C, RIGHT, y[V], right, dy)
     return force
 
 

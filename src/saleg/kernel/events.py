@@ -1,6 +1,6 @@
 """Events of a step: which are crossed, and exactly where."""
 
-from math import exp, inf, isfinite, log, log1p, sqrt
+from math import exp, inf, isfinite, log1p, sqrt
 
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
@@ -16,13 +16,14 @@ from saleg.kernel.layout import (
     LIGHT,
     N_ALL,
     N_EVENTS,
+    N_STATE,
     OPEN,
     PORT,
     THETA,
     V,
     X,
 )
-from saleg.kernel.rhs import ln_temperature, rhs
+from saleg.kernel.rhs import ln_clearance_of, ln_temperature, rhs
 from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
 
@@ -159,7 +160,7 @@ def guessed_time(E, C, event, h, y, y_new, dy, dy_new):
     return cubic_root(g0, r0, g1, r1, h)
 
 
-@compiled
+@inline
 def first_event(E, C, stages, h, y, y_new, k, landed):
     """Event crossed first between `y` and `y_new`, or -1, and when, both by interpolation.
 
@@ -207,12 +208,12 @@ def locate(P, E, C, O, tableau, t, h, guess, y, k, y_new, event):
     stages = tableau.b.shape[0]
     before = event_value(E, C, event, y)
     if before >= 0.0 and event_rate(E, C, event, y, k[0]) > 0.0:
-        take_step(P, E, C, tableau, t, 0.0, y, k, y_new, O.motored)
+        take_step(P, E, C, O, tableau, t, 0.0, y, k, y_new)
         return 0.0
     low, high = 0.0, h
     s = guess if before < 0.0 else 0.5 * h
     for _ in range(100):
-        take_step(P, E, C, tableau, t, s, y, k, y_new, O.motored)
+        take_step(P, E, C, O, tableau, t, s, y, k, y_new)
         value = event_value(E, C, event, y_new)
         if value <= 0.0:
             low = s
@@ -239,10 +240,13 @@ def expected_event(E, C, y, dy):
         s -= (v + s * (a + 0.5 * s * jerk)) / (a + s * jerk)
         if least < s < earliest:
             first, earliest = DEAD_CENTRE, s
+    farthest = abs(earliest * (v + earliest * (0.5 * a + earliest * jerk / 6.0)))
     for event in (CORNER, PORT, PORT + 1):
         if v == 0.0 or not event_is_possible(E, C, event):
             continue
         way = place_of(E, C, event) - y[X]
+        if abs(way) > farthest:  # saves five divisions
+            continue
         s = way / v
         for _ in range(2):
             rest = s * (v + s * (0.5 * a + s * jerk / 6.0)) - way
@@ -266,16 +270,19 @@ def reached(P, E, C, O, stages, t, h, y, k, y_new, event):
     return h + ds
 
 
-@compiled
+@inline
 def is_sound(C, y):
     """Whether a state is finite and both pistons are short of their heads."""
-    for n in range(N_ALL):
-        if not isfinite(y[n]):
-            return False
-    return clearance_of(C, 0, y[X]) > 0.0 and clearance_of(C, 1, y[X]) > 0.0
+    states, quadratures = 0.0, 0.0  # two sums, not finite if any of their terms is not
+    for n in range(N_STATE):
+        states += y[n]
+    for n in range(N_STATE, N_ALL):
+        quadratures += y[n]
+    sound = clearance_of(C, 0, y[X]) > 0.0 and clearance_of(C, 1, y[X]) > 0.0
+    return sound and isfinite(states + quadratures)
 
 
-@compiled
+@inline
 def next_time_event(C, t_end):
     """Earliest known time of an event: breakpoint or end of a combustion, or end of the run."""
     t = t_end
@@ -288,7 +295,7 @@ def next_time_event(C, t_end):
 @inline
 def ln_pressure(C, side, x, theta):
     """Natural logarithm of the pressure in a closed chamber."""
-    return theta - G0 * log(clearance_of(C, side, x) / C[side].half_stroke)
+    return theta - G0 * ln_clearance_of(C, side, x)
 
 
 @inline

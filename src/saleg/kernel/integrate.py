@@ -27,10 +27,12 @@ from saleg.kernel.layout import (
     END_OF_TIME,
     HEAD,
     HEAD_CONTACT,
+    LEFT,
     MAX_STEPS,
     N_ALL,
     N_PEAKS,
     PEAK_PRESSURE,
+    RIGHT,
     STALLED,
     STEP_FAILURE,
     TOO_MANY_STEPS,
@@ -42,7 +44,7 @@ from saleg.kernel.peaks import watch_point, watch_step
 from saleg.kernel.rhs import refresh, rhs
 from saleg.kernel.state import clearance_of, keep_snapshot
 from saleg.kernel.step import error_norm, take_step
-from saleg.kernel.switch import has_room, switch
+from saleg.kernel.switch import has_room, is_due, switch
 
 # Logarithm of the least error the controller remembers of a step.
 MIN_LN_ERROR = -9.21
@@ -66,7 +68,7 @@ def compression(C, y, y_new):
     return min(clearance_of(C, side, y_new[X]) / clearance_of(C, side, y[X]), 1.0)
 
 
-@compiled
+@inline
 def control_step(E, C, order, h, error, was_rejected, y, y_new):
     """Set the next step from the error of an accepted one (PI control, Hairer and Wanner).
 
@@ -82,7 +84,7 @@ def control_step(E, C, order, h, error, was_rejected, y, y_new):
     E.next_step = h * factor * compression(C, y, y_new)
 
 
-@compiled
+@inline
 def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
     """Take one step the error control, or the fixed grid, is content with.
 
@@ -104,7 +106,7 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
     smallest = 4e-16 * max(t, E.length_scale / E.speed_scale)
     rejected = False
     while h > smallest or (h >= 0.0 and not rejected):
-        take_step(P, E, C, tableau, t, h, y, k, y_new, O.motored)
+        take_step(P, E, C, O, tableau, t, h, y, k, y_new)
         E.steps += 1.0
         if not is_sound(C, y_new):
             h *= 0.5
@@ -113,7 +115,7 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
             continue
         if O.adaptive == 0:
             return h, t + h if rejected else end, -1
-        error = error_norm(E, tableau, h, y, y_new, k, O.tolerance)
+        error = error_norm(E, h, y, y_new, k, O.tolerance)
         if error <= 1.0:
             wish = E.next_step
             control_step(E, C, order, h, error, rejected, y, y_new)
@@ -127,7 +129,7 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
     return -1.0, t, -1
 
 
-@compiled
+@inline
 def advance_to_event(P, E, C, O, tableau, h, aim, y, k, y_new):
     """End the step just taken on the first event in it; returns its length and the event."""
     stages = tableau.b.shape[0]
@@ -147,7 +149,7 @@ def advance_to_event(P, E, C, O, tableau, h, aim, y, k, y_new):
     return h, landed
 
 
-@compiled
+@inline
 def accept(E, O, h, full, end, y, y_new, k, stages):
     """Make the end of a step the present state."""
     E.t = end if h == full else E.t + h
@@ -159,7 +161,7 @@ def accept(E, O, h, full, end, y, y_new, k, stages):
         k[0, n] = k[stages, n]
 
 
-@compiled
+@inline
 def observe_now(P, E, C, O, y, dy, tables):
     """Record the instant of a state."""
     filled = tables.filled[0]
@@ -176,7 +178,7 @@ def observe_within(P, E, C, O, tableau, h, y, k, spare, tables):
         part = h * i / (O.dense + 1.0)
         for n in range(N_ALL):
             spare.rates[0, n] = k[0, n]
-        take_step(P, E, C, tableau, t, part, y, spare.rates, spare.y_new, O.motored)
+        take_step(P, E, C, O, tableau, t, part, y, spare.rates, spare.y_new)
         E.t = t + part
         observe_now(P, E, C, O, spare.y_new, spare.rates[stages], tables)
     E.t = t
@@ -250,11 +252,13 @@ def run_on(run):
             watch_point(C, y, k[0], peaks)
         if O.history > 0 and (landed >= 0 or E.steps % O.history < 1.0):
             observe_now(P, E, C, O, y, k[0], tables)
-        changed = switch(P, E, C, O, y, landed, peaks, tables, control)
+        changed = False
+        if landed >= 0 or is_due(E, C, LEFT, y) or is_due(E, C, RIGHT, y):
+            changed = switch(P, E, C, O, y, landed, peaks, tables, control)
         code = reason_to_stop(E, O, landed)
         if landed == DEAD_CENTRE:
             if E.direction > 0.0:
-                keep_snapshot(run.engine, C, y, run.snapshots)
+                keep_snapshot(run.words, y, run.snapshots.y)
             if code != END_OF_TIME:  # else what is due now is left to the call that goes on
                 switch(P, E, C, O, y, -1, peaks, tables, control)
         if changed:

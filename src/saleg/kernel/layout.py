@@ -116,6 +116,7 @@ ENGINE_RECORD = np.dtype(
         (name, np.float64)
         for name in (
             "mass",
+            "per_mass",
             "length_scale",
             "speed_scale",
             "current_scale",
@@ -219,6 +220,7 @@ CHAMBER_RECORD = np.dtype(
     + [
         (name, np.float64)
         for name in (
+            "per_half_stroke",
             "ln_volume",
             "ln_mass_gas",
             "per_mass_gas",

@@ -25,7 +25,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.run_plainly import run_at
-from saleg.kernel.state import begin_stroke, copy_row, keep_snapshot
+from saleg.kernel.state import begin_stroke, keep_snapshot
 
 # What do_orbit is asked for.
 FIND = 0
@@ -132,11 +132,13 @@ def read_vector(E, C, y, z):
 
 
 @compiled
-def mirror(E, C, y, spare_chamber):
-    """Exchange left and right, so that a right dead centre becomes a left one."""
-    copy_row(spare_chamber, 0, C, 0)
-    copy_row(C, 0, C, 1)
-    copy_row(C, 1, spare_chamber, 0)
+def mirror(E, C, y, words):
+    """Exchange left and right, so that a right dead centre becomes a left one.
+
+    `words` are the records of the chambers as whole numbers of 8 bytes, shape (2, n).
+    """
+    for n in range(words.shape[1]):
+        words[0, n], words[1, n] = words[1, n], words[0, n]
     C[0].sign, C[1].sign = 1.0, -1.0
     for first in (THETA, IGNITION, MOTORED):
         y[first], y[first + 1] = y[first + 1], y[first]
@@ -187,7 +189,7 @@ def next_return(mapping, mirrored):
     if code == END_OF_TIME and E.strokes < wanted:
         return NO_DEAD_CENTRE
     if mirrored and code == END_OF_TIME:
-        mirror(E, run.chambers, run.y, mapping.spare_chamber)
+        mirror(E, run.chambers, run.y, run.words.chambers)
     return code
 
 
@@ -299,7 +301,7 @@ def whole_cycle(mapping, iterates, found):
     run = mapping.integration
     E, O, C, y = run.engine[0], run.options[0], run.chambers, run.y
     write_vector(E, C, y, iterates.point)
-    keep_snapshot(run.engine, C, y, run.snapshots)
+    keep_snapshot(run.words, y, run.snapshots.y)
     begin_stroke(E, C, y, run.peaks)
     O.peaks = 2
     code = next_return(mapping, False)

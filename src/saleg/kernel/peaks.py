@@ -110,12 +110,24 @@ def is_costly(peak):
 
 
 @inline
+def rises(C, peak, y, dy):
+    """Whether a watched quantity with a known rate rises: the sign of that rate, undivided."""
+    if peak == PEAK_VELOCITY:
+        return known_rate(C, peak, y, dy) > 0.0
+    side = peak % 2
+    c = C[side]
+    share = G0 if peak < PEAK_TEMPERATURE else G0 - 1.0
+    closer = dy[THETA + side] * clearance_of(C, side, y[X]) - share * c.sign * y[V]
+    return c.mode != OPEN and closer > 0.0
+
+
+@inline
 def is_passed(C, peak, y, dy, y_new, dy_new):
     """Whether a quantity with a known rate rises at the begin of a step and falls at its end."""
-    return known_rate(C, peak, y, dy) > 0.0 and not known_rate(C, peak, y_new, dy_new) > 0.0
+    return rises(C, peak, y, dy) and not rises(C, peak, y_new, dy_new)
 
 
-@compiled
+@inline
 def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
     """Take the peaks within a step from `y` to `y_new` into account.
 
@@ -188,7 +200,7 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
     s = top_of_cubic(q0, r0, q1, r1, h)
     for n in range(N_ALL):
         spare_k[0, n] = k[0, n]
-    take_step(P, E, C, tableau, t, s, y, spare_k, inner, motored)
+    take_step(P, E, C, O, tableau, t, s, y, spare_k, inner)
     q, r = value_and_rate(P, E, C, peak, t + s, inner, spare_k[last], spare_y, spare_dy, motored)
     peaks[peak] = max(peaks[peak], q0, q, q1)
     if r > 0.0 and s < h:

@@ -5,6 +5,7 @@ chambers' records (see :mod:`saleg.kernel.layout`), `side` 0 for left and 1 for 
 """
 
 from math import exp, inf, log, pi, sin
+from typing import NamedTuple
 
 from saleg.kernel.copies import motored_gas, with_pressure_rate
 from saleg.kernel.jit import compiled, inline
@@ -23,16 +24,19 @@ from saleg.kernel.layout import (
     HEAT_LOST,
     HEAT_RELEASED,
     IGNITION,
+    LEFT,
     MOTORED,
     N_STATE,
     OPEN,
     PORT_WORK,
+    RIGHT,
     SPEED_SQUARED,
     THETA,
     V,
     X,
 )
 from saleg.kernel.logarithms import Logarithms
+from saleg.kernel.needs import CURRENT_IS_WANTED, MOTORED_PRESSURE_IS_WANTED
 from saleg.kernel.slots import (
     actuators_motor_power,
     alternator_current_rate,
@@ -63,7 +67,7 @@ ONE_SIDE = 1e-15
 @inline
 def ln_clearance_of(C, side, x):
     """Natural logarithm of the clearance over that at the midpoint."""
-    return log(clearance_of(C, side, x) / C[side].half_stroke)
+    return log(clearance_of(C, side, x) * C[side].per_half_stroke)
 
 
 @inline
@@ -75,17 +79,16 @@ def ln_temperature(C, side, y):
 
 
 @inline
-def gas_at(E, C, side, x, v, ln_p, ln_p_motored):
+def gas_at(E, C, side, x, v, p, p_motored):
     """Gas in a closed chamber, as the laws see it."""
     c = C[side]
-    p = exp(ln_p)
     clearance = clearance_of(C, side, x)
     volume = c.area * clearance
     return Gas(
         p=p,
         T=p * volume * c.per_mass_gas,
         V=volume,
-        p_motored=p if ln_p_motored == ln_p else exp(ln_p_motored),
+        p_motored=p_motored,
         clearance=clearance,
         bore=c.bore,
         mean_piston_speed=E.mean_piston_speed,
@@ -100,9 +103,9 @@ def gas_at(E, C, side, x, v, ln_p, ln_p_motored):
 def gas_of(E, C, side, y, motored):
     """Gas in a closed chamber from a state vector."""
     shift = G0 * ln_clearance_of(C, side, y[X])
-    ln_p = y[THETA + side] - shift
-    ln_p_motored = y[MOTORED + side] - shift if motored else ln_p
-    return gas_at(E, C, side, y[X], y[V], ln_p, ln_p_motored)
+    p = exp(y[THETA + side] - shift)
+    p_motored = exp(y[MOTORED + side] - shift) if motored else p
+    return gas_at(E, C, side, y[X], y[V], p, p_motored)
 
 
 @inline
@@ -154,50 +157,87 @@ def heat_release(P, C, side, t):
 def theta_rate(P, side, gas, clearance_rate, heat):
     """Rate of theta [1/s]: Eq. 48, signs corrected, with Eq. 49."""
     g = gas_properties_gamma(P, side, gas.T)
-    return (G0 - g) * clearance_rate / gas.clearance + (g - 1.0) * heat / (gas.p * gas.V)
+    per_pV = 1.0 / (gas.p * gas.V)  # before heat and g are known: a division takes its time
+    growth = clearance_rate / gas.clearance
+    return (G0 - g) * growth + (g - 1.0) * (heat * per_pV)
+
+
+class ChamberRates(NamedTuple):
+    """Pressure in a chamber [Pa] and what else of it the right-hand side needs.
+
+    Attributes
+    ----------
+    p : float
+        Pressure [Pa].
+    theta, ignition, motored : float
+        Rates of theta, of the ignition integral and of theta of the motored pressure [1/s].
+    released, lost : float
+        Heat released by combustion and lost to the wall [W].
+    """
+
+    p: float
+    theta: float
+    ignition: float
+    motored: float
+    released: float
+    lost: float
 
 
 @inline
-def chamber_rates(P, E, C, side, t, y, dy, motored):
-    """Rates of one chamber into `dy`; returns its pressure [Pa]."""
+def chamber_rates(P, E, C, side, t, y, motored):
+    """Pressure, rates and heat flows of one chamber."""
     c = C[side]
-    clearance_rate = c.sign * y[V]
-    dy[THETA + side] = 0.0
-    dy[IGNITION + side] = 0.0
-    dy[MOTORED + side] = 0.0
-    dy[N_STATE + HEAT_RELEASED + side] = 0.0
-    dy[N_STATE + HEAT_LOST + side] = 0.0
     if c.mode == OPEN:
-        dy[N_STATE + GAS_WORK + side] = c.intake_pressure * c.area * clearance_rate
-        dy[N_STATE + PORT_WORK + side] = c.intake_pressure * c.area * clearance_rate
-        return c.intake_pressure
+        return ChamberRates(c.intake_pressure, 0.0, 0.0, 0.0, 0.0, 0.0)
+    clearance_rate = c.sign * y[V]
     ln_clearance = ln_clearance_of(C, side, y[X])
     ln_p = y[THETA + side] - G0 * ln_clearance
-    ln_p_motored = y[MOTORED + side] - G0 * ln_clearance if motored else ln_p
-    gas = gas_at(E, C, side, y[X], y[V], ln_p, ln_p_motored)
+    p = p_motored = exp(ln_p)
+    if MOTORED_PRESSURE_IS_WANTED and motored:
+        p_motored = exp(y[MOTORED + side] - G0 * ln_clearance)
+    gas = gas_at(E, C, side, y[X], y[V], p, p_motored)
     charge = charge_of(E, C, side)
     released = heat_release(P, C, side, t)
     heat_constants = (c.heat_first, c.heat_second, c.heat_third)
-    lost = heat_loss(
-        P, C, side, gas, charge, logarithms_of(C, side, ln_clearance, ln_p, heat_constants)
-    )
-    dy[THETA + side] = theta_rate(P, side, gas, clearance_rate, released - lost)
-    dy[N_STATE + HEAT_RELEASED + side] = released
-    dy[N_STATE + HEAT_LOST + side] = lost
-    dy[N_STATE + GAS_WORK + side] = gas.p * c.area * clearance_rate
-    dy[N_STATE + PORT_WORK + side] = 0.0
+    logarithms = logarithms_of(C, side, ln_clearance, ln_p, heat_constants)
+    lost = heat_loss(P, C, side, gas, charge, logarithms)
+    rate = theta_rate(P, side, gas, clearance_rate, released - lost)
+    ignition = 0.0
     if c.armed > DISARMED and c.mode == CLOSED:
-        relative_rate = dy[THETA + side] - G0 * clearance_rate / gas.clearance
+        relative_rate = rate - G0 * clearance_rate / gas.clearance
         rising = with_pressure_rate(gas, gas.p * relative_rate)
         constants = (c.ignition_first, c.ignition_second, c.ignition_third)
         logarithms = logarithms_of(C, side, ln_clearance, ln_p, constants)
-        dy[IGNITION + side] = ignition_rate(P, side, rising, charge, logarithms)
-    if motored:
+        ignition = ignition_rate(P, side, rising, charge, logarithms)
+    motored_rate = 0.0
+    if MOTORED_PRESSURE_IS_WANTED and motored:
+        ln_p_motored = y[MOTORED + side] - G0 * ln_clearance
         cold = motored_gas(gas, gas.p_motored * gas.V * c.per_mass_gas)
         logarithms = logarithms_of(C, side, ln_clearance, ln_p_motored, heat_constants)
-        lost = heat_loss(P, C, side, cold, charge, logarithms)
-        dy[MOTORED + side] = theta_rate(P, side, cold, clearance_rate, -lost)
-    return gas.p
+        cooled = heat_loss(P, C, side, cold, charge, logarithms)
+        motored_rate = theta_rate(P, side, cold, clearance_rate, -cooled)
+    return ChamberRates(gas.p, rate, ignition, motored_rate, released, lost)
+
+
+@inline
+def write_chamber(C, side, v, rates, dy):
+    """Write the rates of a chamber and its quadratures into `dy`."""
+    c = C[side]
+    power = rates.p * c.area * c.sign * v
+    dy[THETA + side] = rates.theta
+    dy[IGNITION + side] = rates.ignition
+    if MOTORED_PRESSURE_IS_WANTED:
+        dy[MOTORED + side] = rates.motored
+    dy[N_STATE + HEAT_RELEASED + side] = rates.released
+    dy[N_STATE + HEAT_LOST + side] = rates.lost
+    dy[N_STATE + GAS_WORK + side] = power
+    dy[N_STATE + PORT_WORK + side] = power if c.mode == OPEN else 0.0
+
+
+@inline
+def gas_force(C, left, right):
+    """Force of the gas on the translator [N]."""
+    return C[LEFT].sign * C[LEFT].area * left.p + C[RIGHT].sign * C[RIGHT].area * right.p
 
 
 @inline
@@ -218,30 +258,38 @@ def alternator_action(P, E, t, motion):
 
 
 @inline
-def rates_of_motion(P, E, t, y, dy, gas_force):
+def rates_of_motion(P, E, t, y, dy, force):
     """Newton's law (Eq. 36) and the quadratures of the translator."""
     motion = Motion(t, y[X], y[V], E.direction, y[CURRENT])
     generator, power = alternator_action(P, E, t, motion)
     friction = friction_force(P, E.friction_held, motion)
-    dy[X] = y[V]
-    dy[V] = (gas_force + springs_force(P, motion) - generator - friction) / E.mass
-    dy[CURRENT] = alternator_current_rate(P, E.load_weight, motion)
-    dy[N_STATE + ALTERNATOR_WORK] = generator * y[V]
+    acceleration = (force + springs_force(P, motion) - generator - friction) * E.per_mass
+    v = motion.v
+    dy[X], dy[V] = v, acceleration
+    if CURRENT_IS_WANTED:
+        dy[CURRENT] = alternator_current_rate(P, E.load_weight, motion)
+    dy[N_STATE + ALTERNATOR_WORK] = generator * v
     dy[N_STATE + ELECTRICAL_ENERGY] = power
     dy[N_STATE + ELECTRICAL_SQUARED] = power * power
     dy[N_STATE + ALTERNATOR_IMPULSE] = abs(generator)
-    dy[N_STATE + FRICTION_WORK] = friction * y[V]
-    dy[N_STATE + SPEED_SQUARED] = y[V] * y[V]
+    dy[N_STATE + FRICTION_WORK] = friction * v
+    dy[N_STATE + SPEED_SQUARED] = v * v
 
 
 @compiled
 def rhs(P, E, C, t, y, dy, motored):
     """Write the rates of the state `y` and of all quadratures into `dy`."""
-    gas_force = 0.0
-    for side in range(2):
-        pressure = chamber_rates(P, E, C, side, t, y, dy, motored)
-        gas_force += C[side].sign * C[side].area * pressure
-    rates_of_motion(P, E, t, y, dy, gas_force)
+    write_rates(P, E, C, t, y, dy, motored)
+
+
+@inline
+def write_rates(P, E, C, t, y, dy, motored):
+    """The same, folded into the caller."""
+    left = chamber_rates(P, E, C, LEFT, t, y, motored)
+    right = chamber_rates(P, E, C, RIGHT, t, y, motored)
+    rates_of_motion(P, E, t, y, dy, gas_force(C, left, right))
+    write_chamber(C, LEFT, y[V], left, dy)
+    write_chamber(C, RIGHT, y[V], right, dy)
 
 
 @inline
@@ -282,8 +330,10 @@ def find_position(P, E, x):
 def refresh(P, E, C, y):
     """Compute the numbers that stay the same until the next event."""
     find_position(P, E, y[X])
+    E.per_mass = 1.0 / E.mass
     for side in range(2):
         c = C[side]
+        c.per_half_stroke = 1.0 / c.half_stroke
         if c.mode == OPEN:
             continue
         c.ln_volume = log(c.area * c.half_stroke)
@@ -292,7 +342,7 @@ def refresh(P, E, C, y):
         breakpoint = gas_properties_breakpoint(P, side)
         c.ln_breakpoint = log(breakpoint) if breakpoint > 0.0 else 0.0
         c.beyond_breakpoint = 1.0 if ln_temperature(C, side, y) > c.ln_breakpoint else -1.0
-        gas = gas_at(E, C, side, 0.0, 0.0, 0.0, 0.0)  # of which only what stays the same is used
+        gas = gas_at(E, C, side, 0.0, 0.0, 1.0, 1.0)  # of which only what stays the same is used
         charge = charge_of(E, C, side)
         heat = heat_transfer_coefficient_constants(P, side, gas, charge)
         c.heat_first, c.heat_second, c.heat_third = heat

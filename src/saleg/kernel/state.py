@@ -3,8 +3,6 @@
 The search for fixed points takes this module and no law, so that it is compiled once for all.
 """
 
-import numpy as np
-
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import N_ALL, N_PEAKS, N_STATE, X
 
@@ -32,27 +30,20 @@ def begin_stroke(E, C, y, peaks):
     E.t_dead_centre = E.t
 
 
-@inline
-def copy_row(destination, i, source, j):
-    """Copy row j of an array of records to row i of another, word by word.
-
-    As one value a record of this length takes numba a second to compile.
-    """
-    to, given = destination.view(np.int64), source.view(np.int64)
-    words = given.shape[0] // source.shape[0]
-    for n in range(words):
-        to[i * words + n] = given[j * words + n]
-
-
 @compiled
-def keep_snapshot(E1, C, y, snapshots):
-    """Remember the state at a left dead centre; the one before moves to second place."""
-    chambers = snapshots.chambers.reshape(4)
-    copy_row(snapshots.engine, 1, snapshots.engine, 0)
-    copy_row(snapshots.engine, 0, E1, 0)
+def keep_snapshot(words, y, kept_y):
+    """Remember the state at a left dead centre; the one before moves to second place.
+
+    `words` are the records as whole numbers of 8 bytes (:class:`~saleg.kernel.tuples.Words`): as
+    one value a record of this length takes numba a second to compile.
+    """
+    for n in range(words.engine.shape[1]):
+        words.kept_engine[1, n] = words.kept_engine[0, n]
+        words.kept_engine[0, n] = words.engine[0, n]
     for side in range(2):
-        copy_row(chambers, 2 + side, chambers, side)
-        copy_row(chambers, side, C, side)
+        for n in range(words.chambers.shape[1]):
+            words.kept_chambers[1, side, n] = words.kept_chambers[0, side, n]
+            words.kept_chambers[0, side, n] = words.chambers[side, n]
     for n in range(N_ALL):
-        snapshots.y[1, n] = snapshots.y[0, n]
-        snapshots.y[0, n] = y[n]
+        kept_y[1, n] = kept_y[0, n]
+        kept_y[0, n] = y[n]

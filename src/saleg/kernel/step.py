@@ -1,68 +1,48 @@
-"""One Runge-Kutta step with any explicit tableau, and its error."""
+"""One Runge-Kutta step, of the adaptive pair or with any explicit tableau, and its error."""
 
 from math import inf, isfinite
 
-from saleg.kernel.jit import compiled
-from saleg.kernel.layout import CURRENT, IGNITION, MOTORED, N_ALL, N_STATE, THETA, V, X
-from saleg.kernel.rhs import rhs
+from saleg.kernel.adaptive import defect, take_adaptive_step
+from saleg.kernel.general import take_general_step
+from saleg.kernel.jit import inline
+from saleg.kernel.layout import CURRENT, IGNITION, MOTORED, THETA, V, X
+from saleg.kernel.needs import CURRENT_IS_WANTED, MOTORED_PRESSURE_IS_WANTED
 
 
-@compiled
-def take_step(P, E, C, tableau, t, h, y, k, y_new, motored):
+@inline
+def take_step(P, E, C, O, tableau, t, h, y, k, y_new):
     """Advance `y` by `h` into `y_new`.
 
     On entry ``k[0]`` holds the rates at `t`; on return ``k[s]``, s the
     number of stages, holds those at `t + h`. Quadratures need no stage values, so they are summed
     only once, at the end.
     """
-    A, b, c = tableau.A, tableau.b, tableau.c
-    stages = b.shape[0]
-    for i in range(1, stages):
-        for n in range(N_STATE):
-            y_new[n] = y[n]
-        for j in range(i):
-            weight = h * A[i, j]
-            if weight != 0.0:
-                for n in range(N_STATE):
-                    y_new[n] += weight * k[j, n]
-        rhs(P, E, C, t + c[i] * h, y_new, k[i], motored)
-    for n in range(N_ALL):
-        y_new[n] = y[n]
-    for j in range(stages):
-        weight = h * b[j]
-        if weight != 0.0:
-            for n in range(N_ALL):
-                y_new[n] += weight * k[j, n]
-    rhs(P, E, C, t + h, y_new, k[stages], motored)
-    E.evaluations += stages
+    if O.adaptive == 1:
+        take_adaptive_step(P, E, C, t, h, y, k, y_new, O.motored)
+    else:
+        take_general_step(P, E, C, tableau, t, h, y, k, y_new, O.motored)
 
 
-@compiled
-def error_norm(E, tableau, h, y, y_new, k, tolerance):
-    """Estimated error of a step over the tolerated one; below 1 the step is good.
+@inline
+def error_norm(E, h, y, y_new, k, tolerance):
+    """Estimated error of a step of the adaptive pair over the tolerated one; below 1 it is good.
 
     Position is measured by the stroke, velocity by the natural speed, theta (hence pressure)
     relatively, the ignition integral against the larger of itself and 1.
     """
-    e = tableau.e
-    worst = 0.0
-    for n in range(N_STATE):
-        error = 0.0
-        for j in range(e.shape[0]):
-            error += e[j] * k[j, n]
-        scale = 1.0
-        if n == X:
-            scale = E.length_scale
-        elif n == V:
-            scale = E.speed_scale
-        elif THETA <= n < IGNITION or MOTORED <= n < CURRENT:
-            scale = 1.0
-        elif n == CURRENT:
-            scale = E.current_scale
-        else:
-            scale = max(1.0, abs(y[n]), abs(y_new[n]))
-        error = abs(h * error) / (scale * tolerance)
-        if not isfinite(error):
-            return inf
-        worst = max(worst, error)
-    return worst
+    worst, speed = abs(defect(k, X)) / E.length_scale, abs(defect(k, V)) / E.speed_scale
+    worst, total = max(worst, speed), worst + speed  # the total is not finite if any of them is not
+    for n in range(THETA, IGNITION):
+        error = abs(defect(k, n))
+        worst, total = max(worst, error), total + error
+    for n in range(IGNITION, MOTORED):
+        error = abs(defect(k, n)) / max(1.0, abs(y[n]), abs(y_new[n]))
+        worst, total = max(worst, error), total + error
+    if MOTORED_PRESSURE_IS_WANTED:
+        for n in range(MOTORED, CURRENT):
+            error = abs(defect(k, n))
+            worst, total = max(worst, error), total + error
+    if CURRENT_IS_WANTED:
+        error = abs(defect(k, CURRENT)) / E.current_scale
+        worst, total = max(worst, error), total + error
+    return h * worst / tolerance if isfinite(total) else inf

@@ -320,6 +320,17 @@ def ports_due(E, C, side, y):
     return outward > 0.0 and beyond >= -slack
 
 
+@inline
+def is_due(E, C, side, y):
+    """Whether any change of a chamber is due, or a breakpoint of its burn rate is reached."""
+    c = C[side]
+    if c.mode == BURNING and E.t >= c.t_breakpoint:
+        return True
+    if c.renewal_due > 0.0 or misfires(E, C, side) or ports_due(E, C, side, y):
+        return True
+    return c.mode == CLOSED and c.armed > DISARMED and y[IGNITION + side] >= 1.0
+
+
 @compiled
 def change_due(P, E, C, side, y):
     """Kind of the event that is due in a chamber now; -1 if none is."""

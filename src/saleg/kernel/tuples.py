@@ -58,6 +58,23 @@ class Snapshots(NamedTuple):
     y: Any
 
 
+class Words(NamedTuple):
+    """Records of a run and of its snapshots as whole numbers of 8 bytes, in the same memory.
+
+    Attributes
+    ----------
+    engine : ndarray of int, shape (1, n)
+    chambers : ndarray of int, shape (2, n)
+    kept_engine : ndarray of int, shape (2, n)
+    kept_chambers : ndarray of int, shape (2, 2, n)
+    """
+
+    engine: Any
+    chambers: Any
+    kept_engine: Any
+    kept_chambers: Any
+
+
 class Spare(NamedTuple):
     """Scratch arrays for a step within a step.
 
@@ -140,6 +157,7 @@ class Integration(NamedTuple):
     options : ndarray of OPTIONS_RECORD, shape (1,)
     tables : Tables
     snapshots : Snapshots
+    words : Words
     scratch : Scratch
     control : Control
     """
@@ -154,6 +172,7 @@ class Integration(NamedTuple):
     options: Any
     tables: Tables
     snapshots: Snapshots
+    words: Words
     scratch: Scratch
     control: Control
 
@@ -166,15 +185,12 @@ class ReturnMapping(NamedTuple):
     integration : Integration
     address : int
         Address of the compiled integrator.
-    spare_chamber : ndarray of CHAMBER_RECORD, shape (1,)
-        Room to exchange the chambers.
     mirrored : bool
         Whether the map is that of half a cycle, its end seen in the mirror.
     """
 
     integration: Integration
     address: int
-    spare_chamber: Any
     mirrored: bool
 
 

@@ -78,7 +78,7 @@ class Wiebe(BurnDuration):
 
 def wiebe_rate(u: float, a: float, b: float) -> float:
     """Derivative of :func:`wiebe_fraction` [-]."""
-    power = u**b
+    power = u * u if b == 2.0 else u**b  # the usual exponent, at a fifth of the cost
     return a * (b + 1.0) * power * math.exp(-a * power * u)
 
 

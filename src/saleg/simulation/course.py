@@ -64,7 +64,9 @@ class Course:
         self.engine, self.state, self.settings, self.detail = engine, state, settings, detail
         self.controller = controller
         asks = state.engine["controlled"][0] == layout.COMPILED
-        compiled = compiled_engine(engine, controller, asks=asks)
+        compiled = compiled_engine(
+            engine, controller, asks=asks, motored_pressure=settings.motored_pressure
+        )
         self.kernel = compiled.kernel
         self.options = options_record(settings, state.time + settings.duration, detail)
         self.records = Records(bool(settings.history), settings.keep_cycles)

@@ -9,7 +9,7 @@ import numpy as np
 
 from saleg.compiler.compiled_engine import CompiledEngine
 from saleg.kernel import layout
-from saleg.kernel.tuples import Integration, Scratch, Snapshots, Spare, Tableau, Tables
+from saleg.kernel.tuples import Integration, Scratch, Snapshots, Spare, Tableau, Tables, Words
 from saleg.simulation.initial_state import State
 
 
@@ -43,6 +43,7 @@ def arguments_of(
     -------
     Integration
     """
+    snapshots = _snapshots(state)
     return Integration(
         laws=compiled.parameters,
         engine=state.engine,
@@ -53,7 +54,8 @@ def arguments_of(
         order=order,
         options=options,
         tables=tables,
-        snapshots=_snapshots(state),
+        snapshots=snapshots,
+        words=_words(state, snapshots),
         scratch=_scratch(len(tableau.b)),
         control=compiled.control,
     )
@@ -70,6 +72,21 @@ def _snapshots(state: State) -> Snapshots:
     if math.isfinite(E["x_dead_centre"]) and E["direction"] > 0.0:
         kept.engine[0], kept.chambers[0], kept.y[0] = E, state.chambers, state.y
     return kept
+
+
+def _words(state: State, snapshots: Snapshots) -> Words:
+    """Records as whole numbers of 8 bytes."""
+    return Words(
+        *(
+            records.view(np.int64).reshape(*shape, -1)
+            for records, shape in (
+                (state.engine, (1,)),
+                (state.chambers, (2,)),
+                (snapshots.engine, (2,)),
+                (snapshots.chambers, (2, 2)),
+            )
+        )
+    )
 
 
 def _scratch(stages: int) -> Scratch:

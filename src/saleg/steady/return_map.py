@@ -174,7 +174,6 @@ class ReturnMap:
         mapping = ReturnMapping(
             integration=searched.integration,
             address=searched.address,
-            spare_chamber=np.zeros(1, layout.CHAMBER_RECORD),
             mirrored=mirrored,
         )
         return cls(engine, searched.kernel, state, mirrored, strokes, mapping, _iterates())
@@ -225,10 +224,10 @@ class ReturnMap:
         """Take the cycle just recorded from its left dead centre, if it began on the right."""
         if self.state.engine["direction"][0] > 0.0:
             return
-        spare = self.mapping.spare_chamber.view(np.recarray)
+        words = self.mapping.integration.words.chambers
         self.mapping, asked = self.mapping._replace(mirrored=True), self.mapping
         self._do(IMAGE, _iterates(self.vector(self.state)))
-        mirror(*self.state.records, self.state.y, spare)  # half a cycle on, seen without the mirror
+        mirror(*self.state.records, self.state.y, words)  # half a cycle on, seen without the mirror
         self.mapping = asked
         self._do(CYCLE, _iterates(self.vector(self.state)))
 

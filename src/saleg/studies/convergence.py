@@ -332,7 +332,10 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
 
 
 #: Modules of the kernel the emulation is composed of.
-DELAYED = ("rhs", "step", "events", "peaks", "control", "switch", "delayed")
+DELAYED = (
+    *("needs", "rhs", "general", "adaptive", "step", "events", "peaks", "control", "switch"),
+    "delayed",
+)
 
 
 def _gas_force(state: Any) -> float:

@@ -1,0 +1,8 @@
+"""Parts of the state that the laws at hand need; in plain Python all there are.
+
+A composed module has the answers for its laws in their place (:mod:`saleg.compiler.needs`), so that
+what nobody asks for is neither computed nor stepped.
+"""
+
+MOTORED_PRESSURE_IS_WANTED = True
+CURRENT_IS_WANTED = True

@@ -1,0 +1,56 @@
+"""The step of the adaptive pair as it is written out, run as Python where the end is known."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from saleg.compiler.needs import QUADRATURES, Needs
+from saleg.compiler.unrolled import adaptive_step
+from saleg.kernel import layout
+from saleg.laws import CircuitAlternator, LinearLoad, Woschni
+
+
+def growth(P, E, C, t, y, dy, motored):
+    """y' = y for states, their time for quadratures."""
+    dy[:] = y
+    dy[layout.N_STATE :] = t
+
+
+def step_of(needs, h):
+    """End of a step from 1, 2, 3 ..., and the estimated error of position."""
+    names = {"compiled": lambda f: f, "inline": lambda f: f, "write_rates": growth}
+    exec(adaptive_step(needs.states, needs.kept, QUADRATURES), names)
+    y = np.arange(1.0, layout.N_ALL + 1.0)
+    k, y_new = np.zeros((7, layout.N_ALL)), np.full(layout.N_ALL, math.nan)
+    k[0] = y
+    k[0, layout.N_STATE :] = 0.0
+    E = SimpleNamespace(evaluations=0.0)
+    names["take_adaptive_step"](None, E, None, 0.0, h, y, k, y_new, 0)
+    assert E.evaluations == 6.0
+    return y, y_new, h * names["defect"](k, layout.X)
+
+
+@pytest.mark.parametrize("motored", [False, True])
+@pytest.mark.parametrize("current", [False, True])
+def test_a_step_is_of_fifth_order_and_leaves_alone_what_nobody_needs(motored, current):
+    needs = Needs(motored_pressure=motored, current=current)
+    h = 0.1
+    y, y_new, error = step_of(needs, h)
+    grown = y[: layout.N_STATE] * math.exp(h)
+    wanted = grown.copy()
+    if not motored:
+        wanted[layout.MOTORED : layout.CURRENT] = y[layout.MOTORED : layout.CURRENT]
+    if not current:
+        wanted[layout.CURRENT] = y[layout.CURRENT]
+    assert y_new[: layout.N_STATE] == pytest.approx(wanted, rel=h**6 / math.factorial(6))
+    assert y_new[layout.N_STATE :] == pytest.approx(y[layout.N_STATE :] + h**2 / 2, rel=1e-14)
+    assert 0.0 < abs(error) < h**5 / math.factorial(5)
+    halved = step_of(needs, h / 2)[2]
+    assert error / halved == pytest.approx(32.0, rel=0.1)
+
+
+def test_an_engine_needs_what_its_laws_ask_for():
+    assert Needs.of([Woschni, LinearLoad], motored_pressure=False) == (False, False)
+    assert Needs.of([Woschni, CircuitAlternator], motored_pressure=True) == (True, True)
