@@ -27,6 +27,8 @@ from saleg.simulation.readable import readable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
+
 #: Most of a drawing's size, and the least width its title needs [inch].
 WIDEST, HIGHEST, NARROWEST = 10.6, 6.4, 4.5
 STROKE, BORE = readable("stroke", "m"), readable("bore", "m")
@@ -112,7 +114,7 @@ def _label(ax: Axes, x: float, y: float, text: str) -> None:
 def alternator_map(
     powers: Sequence[float] = (1e3, 10e3, 100e3),
     ax: Sequence[Axes] | np.ndarray | None = None,
-) -> np.ndarray:
+) -> Panels:
     """Draw the alternator diameter [m] over stroke [mm] and frequency [Hz] (Figure 63, Eq. 60).
 
     Two poles, pole pitch equal to the stroke; one panel per power.
@@ -126,7 +128,7 @@ def alternator_map(
 
     Returns
     -------
-    array of matplotlib.axes.Axes
+    Panels
     """
     from matplotlib.colors import LogNorm
 

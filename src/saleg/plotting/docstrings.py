@@ -76,7 +76,7 @@ def completed(text: str, names: Sequence[str], axes: int = 1) -> str:
     taken, returned = kind, kind
     if axes > 1:
         taken = f"array of {NUMBERS[axes]} {kind}"
-        returned = f"ndarray of {kind}, shape ({axes},)"
+        returned = f"Panels\n    Array of {NUMBERS[axes]} {kind}; ``.figure`` holds them all."
     place = f"ax : {taken}, optional\n    Axes to draw on; new ones unless given."
     shared = {**PARAMETERS, "ax": place, **_entries(sections.pop("Parameters", ""))}
     sections = {

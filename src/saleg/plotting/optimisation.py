@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from saleg.optimize.stages import winners
 from saleg.plotting import sweeps
 from saleg.plotting.docstrings import documented
 from saleg.plotting.labels import axis_label, column, label, values
-from saleg.plotting.namespace import Plots
+from saleg.plotting.namespace import Method, Namespace
 from saleg.plotting.scores import score_terms
 from saleg.plotting.style import LEFT_COLOUR, RIGHT_COLOUR, axes_or_new, finish
 
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.optimize.result import Found
+    from saleg.plotting.figure import Panels
 
 #: Figures beside the parameters in parallel coordinates.
 BESIDE = ("efficiency", "power", "compression_ratio", "frequency")
@@ -87,7 +87,7 @@ def design_map(
 
 
 @documented(axes=8)
-def groups(found: Found, x: str = "stroke_to_bore", ax: Any = None) -> np.ndarray:
+def groups(found: Found, x: str = "stroke_to_bore", ax: Any = None) -> Panels:
     """Draw all designs evaluated over a dimensionless group, in eight panels (Figures 117-124).
 
     Parameters
@@ -220,7 +220,7 @@ def front(found: Found, ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def score(found: Found, ax: Any = None) -> np.ndarray:
+def score(found: Found, ax: Any = None) -> Panels:
     """Draw what each term of the score earns over its figure (Figure 85).
 
     Parameters
@@ -231,7 +231,7 @@ def score(found: Found, ax: Any = None) -> np.ndarray:
 
     Returns
     -------
-    ndarray of matplotlib.axes.Axes
+    Panels
     """
     return score_terms(found.problem.score, ax)
 
@@ -250,19 +250,20 @@ def engine(found: Found, ax: Axes | None = None) -> Axes:
     return solve(best, rtol=found.problem.rtol).draw(ax)
 
 
+class OptimisationPlots(Namespace):
+    """Figures of an optimisation: ``found.plot.convergence()`` and so on; ``dir`` lists them."""
+
+    _kind = "an optimisation"
+
+    convergence = Method(convergence)
+    design_map = Method(design_map)
+    groups = Method(groups)
+    archive = Method(archive)
+    parallel = Method(parallel)
+    front = Method(front)
+    score = Method(score)
+    engine = Method(engine)
+
+
 #: Figures of an optimisation by name.
-FIGURES: dict[str, Callable[..., Any]] = {
-    "convergence": convergence,
-    "design_map": design_map,
-    "groups": groups,
-    "archive": archive,
-    "parallel": parallel,
-    "front": front,
-    "score": score,
-    "engine": engine,
-}
-
-
-def plots(found: Found) -> Plots:
-    """``found.plot``: the figures of an optimisation under their names."""
-    return Plots(found, FIGURES, "an optimisation")
+FIGURES = OptimisationPlots._figures()

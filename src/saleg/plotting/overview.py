@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
     from saleg.simulation.run import Run
 
 
@@ -32,7 +33,7 @@ MIN_SPAN = 1e-4
 
 
 @documented(axes=2)
-def dynamics(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def dynamics(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw velocity and pressures over position side by side (Figure 92 of the thesis)."""
     last_cycle(run)
     panels = panels_or_new(ax, (1, 2), 10.0, 4.2)
@@ -44,7 +45,7 @@ def dynamics(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
 
 
 @documented(axes=4)
-def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw how a run settles, one point per cycle (Figure 42 of the thesis).
 
     Stroke [mm], dead centres as distances from the midpoint [mm], compression ratio and electrical

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from saleg.plotting.figure import Panels
+
 #: Colours of the two chambers in every plot (Okabe and Ito, safe for the colour-blind).
 LEFT_COLOUR = "#0072B2"
 RIGHT_COLOUR = "#D55E00"
@@ -56,7 +58,7 @@ DOTTED: dict[str, Any] = {"left": (0, (1, 2.6)), "right": (1.8, (1, 2.6))}
 def new_figure(width: float = 6.4, height: float = 4.4) -> Figure:
     """Make an empty figure that needs no display.
 
-    It shows as the result of a notebook's cell.
+    It shows as the result of a notebook's cell, and so do its axes.
 
     Parameters
     ----------
@@ -94,7 +96,7 @@ def panels_or_new(
     height: float,
     count: int | None = None,
     **settings: Any,
-) -> np.ndarray:
+) -> Panels:
     """The axes handed in, or new ones in rows and columns, as a flat array.
 
     Parameters
@@ -112,20 +114,22 @@ def panels_or_new(
 
     Returns
     -------
-    ndarray of matplotlib.axes.Axes
+    Panels
 
     Raises
     ------
     AxesError
         If there are not as many axes as the figure needs.
     """
+    from saleg.plotting.figure import Panels
+
     needed = shape[0] * shape[1] if count is None else count
     if ax is None:
         made = new_figure(width, height).subplots(*shape, squeeze=False, **settings).ravel()
         for spare in made[needed:]:
             spare.remove()
-        return np.asarray(made[:needed])
-    panels = np.asarray(ax, dtype=object).ravel()
+        return Panels.of(made[:needed])
+    panels = Panels.of(np.ravel(np.asarray(ax, dtype=object)))
     if len(panels) != needed:
         raise AxesError(f"this figure needs {needed} axes, not {len(panels)}; {_HINT}")
     for panel in panels:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
     from saleg.sweep.sobol_indices import Indices
 
 #: Figures of the panels, in order.
@@ -52,7 +53,7 @@ WIDE = 40.0
 
 
 @documented(axes=8)
-def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
+def panels(table: pd.DataFrame, x: str, ax: Any = None) -> Panels:
     """Draw stability, compression, performance and score along one input (Figures 67-82).
 
     Parameters
@@ -79,7 +80,7 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
 
 
 @documented(axes=8)
-def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
+def groups(table: pd.DataFrame, x: str, ax: Any = None) -> Panels:
     """Draw a cloud of designs over a dimensionless group, coloured by score (Figures 117-124).
 
     Unstable orbits are hollow.

@@ -42,6 +42,8 @@ from saleg.plotting.style import panels_or_new
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
+
 #: Midpoint pressure and heat of all figures [-]: about those of the base case.
 PRESSURE, HEAT = 0.17, 2.2
 #: Work force over heat with an equilibrium that attracts [-].
@@ -160,7 +162,7 @@ def figure_14(ax: Axes | None = None) -> Axes:
     return plots.load_profiles(profiles(), DEEP, ax)
 
 
-def figure_15(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def figure_15(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw velocity and acceleration under either work force, on two axes."""
     panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.compare_velocities(both_loads(), panels[0], "Velocity")
@@ -168,7 +170,7 @@ def figure_15(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
     return panels
 
 
-def figure_16(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def figure_16(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw velocity and acceleration with early combustion, on two axes."""
     return _motion(early(), ax)
 
@@ -178,12 +180,12 @@ def figure_17(ax: Axes | None = None) -> Axes:
     return plots.pressure_loops(lossy(), ax)
 
 
-def figure_18(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def figure_18(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw velocity and acceleration with all effects together, on two axes."""
     return _motion(combined(), ax)
 
 
-def figure_19(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def figure_19(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw how the compression ratio settles, and where the heat goes, on two axes."""
     panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.compression_ratios(combined(), panels[0])
@@ -207,7 +209,7 @@ FIGURES: dict[int, Callable[..., Any]] = {
 }
 
 
-def _motion(history: History, ax: Any) -> np.ndarray:
+def _motion(history: History, ax: Any) -> Panels:
     panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.phase_portrait(history, panels[0])
     plots.acceleration_portrait(history, panels[1], "Acceleration")

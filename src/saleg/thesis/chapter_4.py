@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
+
 #: Ranges of the sweeps of Figures 67 to 82, two figures each, by input (SI). The text prints that
 #: of the retained exhaust gas; the others hold the borders of stability it names.
 SWEEPS = {
@@ -91,7 +93,7 @@ def sweep_along(name: str, count: int = 61) -> pd.DataFrame:
     return sweep.run(sweep.grid({name: np.linspace(*SWEEPS[name], count).tolist()}))
 
 
-def draw_sweep(table: pd.DataFrame, name: str, ax: Any = None) -> np.ndarray:
+def draw_sweep(table: pd.DataFrame, name: str, ax: Any = None) -> Panels:
     """Draw a table of :func:`sweep_along`, on eight axes handed in or on new ones."""
     return sweeps.panels(table, name, ax)
 

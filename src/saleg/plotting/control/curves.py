@@ -26,6 +26,7 @@ from saleg.plotting.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
     from saleg.simulation.run import Run
 
 #: What is commanded, and holds from one dead centre to the next; all else is measured there.
@@ -127,8 +128,8 @@ def draw_moments(panels: Iterable[Axes], run: Run) -> None:
 
 
 def finished(
-    panels: np.ndarray, run: Run, title: str, columns: int = 1, legend_on: Axes | None = None
-) -> np.ndarray:
+    panels: Panels, run: Run, title: str, columns: int = 1, legend_on: Axes | None = None
+) -> Panels:
     """Titles, grids, time axis and legend of all panels."""
     for panel in panels:
         finish(panel, "", None)
