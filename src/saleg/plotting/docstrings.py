@@ -20,6 +20,10 @@ PARAMETERS = {
     "study": (
         "study : Study\n    From :func:`saleg.sensitivity.study` or one of the studies built on it."
     ),
+    "label": (
+        "label : str, optional\n"
+        "    Name of the run in the legend. Runs on the same axes differ in colour or line."
+    ),
     "history": "history : History",
     "histories": "histories : mapping of str to History\n    By the name in the legend.",
 }

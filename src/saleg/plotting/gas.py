@@ -13,9 +13,10 @@ from saleg.plotting.cycle import (
     Cycle,
     draw_sides,
     figure_of_cycle,
+    finish_cycle,
     time_axis,
 )
-from saleg.plotting.style import COINCIDING, finish, from_zero, zero_lines
+from saleg.plotting.style import COINCIDING, from_zero, zero_lines
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,7 +31,7 @@ def pressure_volume(cycle: Cycle, ax: Axes) -> Axes:
     draw_sides(ax, cycle, VOLUME, PRESSURE, COINCIDING, motored=True)
     ax.set_xlim(0.0, 1.05 * ax.dataLim.xmax)
     from_zero(ax)
-    return finish(ax, cycle.titled("Pressure and volume"), _clear_of(cycle, "upper right"))
+    return finish_cycle(ax, cycle, "Pressure and volume", _clear_of(cycle, "upper right"))
 
 
 @figure_of_cycle
@@ -41,7 +42,7 @@ def pressure_position(cycle: Cycle, ax: Axes) -> Axes:
     """
     draw_sides(ax, cycle, POSITION, PRESSURE, motored=True)
     from_zero(ax)
-    return finish(ax, cycle.titled("Pressure and position"), _clear_of(cycle, "upper center"))
+    return finish_cycle(ax, cycle, "Pressure and position", _clear_of(cycle, "upper center"))
 
 
 @figure_of_cycle
@@ -54,7 +55,7 @@ def pressure_time(cycle: Cycle, ax: Axes) -> Axes:
     draw_sides(ax, cycle, TIME, PRESSURE, motored=True)
     time_axis(ax, cycle)
     from_zero(ax)
-    return finish(ax, cycle.titled("Pressure in time"), "below", columns=4)
+    return finish_cycle(ax, cycle, "Pressure in time", "below", columns=4)
 
 
 @figure_of_cycle
@@ -68,7 +69,7 @@ def heat_flow_time(cycle: Cycle, ax: Axes) -> Axes:
     draw_sides(ax, cycle, TIME, HEAT_FLOW)
     zero_lines(ax, y=True)
     time_axis(ax, cycle)
-    return finish(ax, cycle.titled("Heat to the walls in time"), "below", columns=3)
+    return finish_cycle(ax, cycle, "Heat to the walls in time", "below", columns=3)
 
 
 def _clear_of(cycle: Cycle, place: str) -> str:

@@ -44,6 +44,8 @@ class CurveLook(NamedTuple):
     marker_scale: float
 
 
+#: Marks the legend below all panels.
+BELOW_PANELS = "saleg: legend below the panels"
 #: Distance from the axes to a legend below them, past ticks and label [pt].
 BELOW = 38.0
 
@@ -195,18 +197,27 @@ def finish(ax: Axes, title: str, legend: str | None, columns: int = 1) -> Axes:
         look |= {"bbox_transform": ax.transAxes + down}
     else:
         look |= {"loc": legend}
-    handles, labels = ax.get_legend_handles_labels()
-    ax.legend(handles, labels, ncols=columns, **look)
+    entries = legend_entries([ax])
+    ax.legend(list(entries.values()), list(entries), ncols=columns, **look)
     return ax
 
 
-def legend_below(panels: Iterable[Axes], columns: int = 4) -> None:
-    """Draw one legend for all panels of a figure, below them; every text once."""
-    axes, handles = list(panels), dict[str, Any]()
-    for panel in axes:
+def legend_entries(panels: Iterable[Axes]) -> dict[str, Any]:
+    """What the legend of some axes shows by its text, every text once."""
+    entries: dict[str, Any] = {}
+    for panel in panels:
         for handle, text in zip(*panel.get_legend_handles_labels(), strict=True):
-            handles.setdefault(text, handle)
-    if handles:
+            entries.setdefault(text, handle)
+    return entries
+
+
+def legend_below(panels: Iterable[Axes], columns: int = 4) -> None:
+    """Draw one legend for all panels of a figure, below them, in place of an earlier one."""
+    axes = list(panels)
+    entries, figure = legend_entries(axes), axes[0].figure
+    for earlier in [legend for legend in figure.legends if legend.get_gid() == BELOW_PANELS]:
+        earlier.remove()
+    if entries:
         look: dict[str, Any] = {"ncols": columns, "frameon": False, "fontsize": "small"}
-        texts = list(handles)
-        axes[0].figure.legend(handles.values(), texts, loc="outside lower center", **look)
+        place: dict[str, Any] = {"loc": "outside lower center", **look}
+        figure.legend(list(entries.values()), list(entries), **place).set_gid(BELOW_PANELS)

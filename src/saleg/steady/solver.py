@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -33,6 +34,9 @@ from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
 from saleg.steady.slow_states import FINEST, find_settled, finer, is_sharp
 from saleg.steady.stability import Stability, stability
+
+if TYPE_CHECKING:
+    from saleg.plotting import Plots
 
 DEFAULT_TOLERANCE = 1e-6
 #: Maps after which iteration gives up.
@@ -139,6 +143,21 @@ class SteadyState:
             return Performance.of_nothing(self.engine)
         history = None if self.orbit is None else self.orbit.history_rows
         return Performance.of_cycle(self.engine, self.strokes, self.strokes, history)
+
+    @property
+    def plot(self) -> Plots:
+        """Figures of the cycle, as ``run.plot`` has them; ``dir`` lists them.
+
+        Raises
+        ------
+        NoSteadyState
+            If there is no cycle to draw.
+        """
+        from saleg.plotting import Plots
+
+        if self.orbit is None:
+            raise NoSteadyState(f"no steady state to draw: {self.message}")
+        return Plots(self.orbit)
 
     @property
     def quick_performance(self) -> Performance:

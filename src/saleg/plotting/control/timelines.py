@@ -19,6 +19,7 @@ from saleg.plotting.control.curves import (
 )
 from saleg.plotting.docstrings import documented
 from saleg.plotting.labels import TIME
+from saleg.plotting.overlay import placed
 from saleg.plotting.style import (
     RIGHT_COLOUR,
     TRANSLATOR_COLOUR,
@@ -182,21 +183,25 @@ def duty_cycle(
 
 
 @documented(axes=8)
-def controlled(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
+def controlled(
+    run: Run, ax: Sequence[Axes] | np.ndarray | None = None, *, label: str | None = None
+) -> Panels:
     """Draw what a run did over time [s], on the left, and what was commanded, on the right.
 
     Compression ratio [-], stroke [mm], frequency [Hz] and power [kW]; motor frequency [Hz], load
-    weight [-], equivalence ratio [-] and intake temperature [K].
+    weight [-], equivalence ratio [-] and intake temperature [K]. Of several runs on the same axes
+    the first shows when it was motored and what disturbed it.
     """
     check(run)
     panels = panels_or_new(ax, (4, 2), 10.0, 7.8, sharex=True)
     measured = ("compression_ratio", "stroke", "frequency", "power")
-    for panel, name in zip(panels[::2], measured, strict=True):
-        draw(panel, run, name)
-    for panel, name in zip(panels[1::2], COMMANDS, strict=True):
-        draw(panel, run, name)
-    draw_moments(panels, run)
-    return finished(panels, run, "Under control", columns=2)
+    with placed(panels[0], run, label) as place:
+        for panels_of, names in ((panels[::2], measured), (panels[1::2], COMMANDS)):
+            for panel, name in zip(panels_of, names, strict=True):
+                draw(panel, run, name, place)
+    if place.number == 0:
+        draw_moments(panels, run)
+    return finished(panels, run, "Under control", columns=2, place=place)
 
 
 def _varied(run: Run) -> str:
