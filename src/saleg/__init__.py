@@ -46,6 +46,7 @@ if TYPE_CHECKING:  # imported on first use
     from saleg import thesis as thesis
     from saleg.steady import continuation as continuation
     from saleg.studies import sensitivity as sensitivity
+    from saleg.studies.comparison import compare as compare
 
 __all__ = [
     "BounceChamber",
@@ -88,4 +89,4 @@ def __getattr__(name: str) -> object:
 
 def __dir__() -> list[str]:
     """List what is public."""
-    return sorted({*__all__, *aliases.LAZY})
+    return sorted({*__all__, *aliases.LAZY, *aliases.FUNCTIONS})

@@ -6,6 +6,7 @@ from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
+from typing import Any
 
 #: Parts that are imported on first use.
 LAZY = (
@@ -22,6 +23,8 @@ LAZY = (
     "sweep",
     "thesis",
 )
+#: Functions that are imported on first use, and the modules they stand in.
+FUNCTIONS = {"compare": "saleg.studies.comparison"}
 #: Short names that documentation has given to modules, and where these live. Some of them are
 #: names for good (``saleg.continuation``, ``saleg.sensitivity``, ``saleg.start``).
 ALIASES = {
@@ -56,8 +59,8 @@ def install() -> None:
     sys.meta_path.append(_AliasFinder())
 
 
-def part(name: str) -> ModuleType:
-    """Import a part of the package, or what its name stands for.
+def part(name: str) -> Any:
+    """Import a part of the package, a function, or what a name stands for.
 
     Raises
     ------
@@ -66,4 +69,6 @@ def part(name: str) -> ModuleType:
     """
     if name in LAZY or f"saleg.{name}" in ALIASES:
         return import_module(f"saleg.{name}")
+    if name in FUNCTIONS:
+        return getattr(import_module(FUNCTIONS[name]), name)
     raise AttributeError(f"module 'saleg' has no attribute {name!r}")

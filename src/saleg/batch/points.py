@@ -100,7 +100,9 @@ class Evaluation:
         return self._described(table, {**units, **self.input_units})
 
     def _described(self, table: pd.DataFrame, units: Mapping[str, str]) -> pd.DataFrame:
-        table.attrs["units"] = {str(name): units[str(name)] for name in table}
+        from saleg.simulation.shown_table import Table
+
+        table = Table.of(table, {str(name): units[str(name)] for name in table})
         table.attrs["inputs"] = list(self.input_units)
         return table
 

@@ -129,12 +129,10 @@ def _compiled_first(
 
 def table_of(parts: Mapping[int, Columns], units: Mapping[str, str]) -> pd.DataFrame:
     """Columns of pieces in the order of their numbers, with units in ``.attrs``."""
-    import pandas as pd
+    from saleg.simulation.shown_table import Table
 
     ordered = [parts[number] for number in sorted(parts)]
-    frame = pd.DataFrame({name: _joined(name, ordered) for name in units})
-    frame.attrs["units"] = dict(units)
-    return frame
+    return Table.of({name: _joined(name, ordered) for name in units}, units)
 
 
 def _joined(name: str, parts: Sequence[Columns]) -> np.ndarray:

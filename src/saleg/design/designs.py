@@ -196,6 +196,14 @@ class Design:
             raise UnknownPath(f"no '{path}' in a design{hint}")
         return self.laws, None
 
+    def __repr__(self) -> str:
+        return f"<Design of {self.laws.name!r}: {self.parameters}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import design_card
+
+        return design_card(self)
+
     def validate(self) -> None:
         """Raise one error naming every wrong field of parameters, masses and laws.
 

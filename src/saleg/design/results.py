@@ -17,7 +17,7 @@ from saleg.status import Status
 from saleg.steady.solver import SteadyState
 
 
-@dataclass(eq=False, kw_only=True)
+@dataclass(eq=False, kw_only=True, repr=False)
 class DesignedState(SteadyState):
     """Steady state of a design, with masses and dimensions that follow from it.
 
@@ -91,6 +91,11 @@ class DesignedState(SteadyState):
             if self.found:
                 figures["frequency_ratio"] = groups.frequency_ratio(p.frequency)
         return figures
+
+    def _repr_html_(self) -> str:
+        from saleg.display import designed_card
+
+        return designed_card(self)
 
     def draw(self, ax: Any = None) -> Any:
         """Drawing of the engine to scale: see :func:`saleg.plotting.design.engine_drawing`."""

@@ -210,6 +210,15 @@ class Engine:
         """
         check_laws(self.laws.values())
 
+    def __repr__(self) -> str:
+        kinds = ", ".join(type(chamber).__name__ for chamber in self.chambers)
+        return f"<Engine {self.name!r}: {kinds}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import engine_card
+
+        return engine_card(self)
+
     def to_toml(self) -> str:
         """The engine as TOML text that :meth:`from_toml` reads back exactly."""
         from saleg.engine.toml import to_toml

@@ -331,9 +331,10 @@ class _Course:
 
     def _described(self, table: pd.DataFrame) -> pd.DataFrame:
         """A table with its columns in order and their units."""
+        from saleg.simulation.shown_table import Table
+
         units = {**self._problem.units, **dict.fromkeys(MARKS, "-")}
-        table = table[list(units)]
-        table.attrs["units"] = units
+        table = Table.of(table[list(units)], units)
         table.attrs["inputs"] = list(self._problem.bounds)
         return table
 

@@ -116,6 +116,14 @@ class Found:
         row = int(np.argmax(told.fitness))
         return bool(is_known(self.table.iloc[[row]])[0] and told.fitness[row] > MISSES)
 
+    def __repr__(self) -> str:
+        return f"<Found: {self}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import found_card
+
+        return found_card(self)
+
     def __str__(self) -> str:
         if not self.succeeded:
             count = f"{len(self.table)} designs of {type(self.method).__name__}"

@@ -132,6 +132,11 @@ class Performance:
         """All figures by name."""
         return dataclasses.asdict(self)
 
+    def _repr_html_(self) -> str:
+        from saleg.display import performance_card
+
+        return performance_card(self)
+
     @classmethod
     def of_nothing(cls, engine: Engine) -> Performance:
         """Performance of an engine that completed no cycle or stalled: zeros and NaN."""
@@ -302,6 +307,11 @@ class EnergyBalance:
     def to_dict(self) -> dict[str, float]:
         """All terms by name [J]."""
         return dataclasses.asdict(self)
+
+    def _repr_html_(self) -> str:
+        from saleg.display import balance_card
+
+        return balance_card(self)
 
     @property
     def largest_term(self) -> float:

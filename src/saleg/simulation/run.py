@@ -217,6 +217,14 @@ class Run:
 
         return load(path, laws=laws)
 
+    def __repr__(self) -> str:
+        return f"<Run of {self.engine.name!r}: {self.duration:.4g} s, {self.status}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import run_card
+
+        return run_card(self)
+
     def __str__(self) -> str:
         from saleg.simulation.report import describe_run
 

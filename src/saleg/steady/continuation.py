@@ -114,6 +114,8 @@ class Branch:
         """Table of the points, one row each: parameter, figures, stability; units in ``.attrs``."""
         import pandas as pd
 
+        from saleg.simulation.shown_table import Table
+
         rows = [
             {
                 self.path: point.value,
@@ -125,14 +127,9 @@ class Branch:
             for point in self.points
         ]
         frame = pd.DataFrame(rows).drop(columns="adverse_work")
-        frame.attrs["units"] = {
-            self.path: self.unit,
-            "stable": "-",
-            "kind": "-",
-            "largest_multiplier": "-",
-        }
-        frame.attrs["units"] |= {name: PERFORMANCE_UNITS[name] for name in frame.columns[4:]}
-        return frame
+        units = {self.path: self.unit, **dict.fromkeys(frame.columns[1:4], "-")}
+        units |= {name: PERFORMANCE_UNITS[name] for name in frame.columns[4:]}
+        return Table.of(frame, units)
 
     @property
     def folds(self) -> list[float]:
@@ -161,6 +158,15 @@ class Branch:
             value = a.value - x * (b.value - a.value) / (y - x) if x != y else a.value
             found.append((float(value), unstable.stability.kind))
         return found
+
+    def __repr__(self) -> str:
+        name, count = self.engine.name, len(self.points)
+        return f"<Branch of {name!r} along {self.path!r}: {count} steady states>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import branch_card
+
+        return branch_card(self)
 
     def plot(self, figure: str = "stroke", ax: Any = None) -> Any:
         """Bifurcation diagram: see :func:`saleg.plotting.branches.bifurcation`."""

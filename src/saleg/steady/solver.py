@@ -214,6 +214,14 @@ class SteadyState:
         """Whether small disturbances of the cycle die away; False where that is not known."""
         return self.found and self.has_multipliers and self.stability.stable
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.engine.name!r}: {self.status}, by {self.method}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import steady_card
+
+        return steady_card(self)
+
     def __str__(self) -> str:
         from saleg.simulation.report import describe_performance, describe_remarks
 

@@ -42,6 +42,11 @@ class Indices:
     table: pd.DataFrame = field(repr=False)
     variance: float
 
+    def _repr_html_(self) -> str:
+        from saleg.display import indices_card
+
+        return indices_card(self)
+
     def plot(self, ax: Any = None) -> Any:
         """Bars: see :func:`saleg.plotting.sweeps.indices`."""
         from saleg.plotting.sweeps import indices

@@ -225,7 +225,7 @@ def read_frame(path: Path) -> pd.DataFrame:
     SweepError
         If it is none.
     """
-    import pandas as pd
+    from saleg.simulation.shown_table import Table
 
     is_folder(path, SweepError)  # refuses what would be waited for without end
     try:
@@ -239,9 +239,7 @@ def read_frame(path: Path) -> pd.DataFrame:
     data = {}
     for field, name in zip(rows.dtype.names or (), units, strict=True):
         data[name] = rows[field] == "True" if kind_of(name) is bool else rows[field]
-    frame = pd.DataFrame(data)
-    frame.attrs["units"] = units
-    return frame
+    return Table.of(data, units)
 
 
 def table_text(table: pd.DataFrame) -> str:
