@@ -49,7 +49,7 @@ class WrongFields(SalegError, ValueError):
         plural = "s" if count > 1 else ""
         super().__init__(f"{count} wrong field{plural} in the {self.whole}:\n{lines}")
 
-    def __reduce__(self) -> tuple[type[WrongFields], tuple[list[Problem]]]:
+    def __reduce__(self) -> tuple[type[WrongFields], tuple[Any, ...]]:
         """Pickle by the problems, not by their text."""
         return type(self), (self.problems,)
 
@@ -64,6 +64,25 @@ class InvalidController(WrongFields):
     """A controller with fields out of range; `problems` lists them all."""
 
     whole = "controller"
+
+
+class WrongArguments(WrongFields):
+    """A call with wrong arguments; `problems` lists them all.
+
+    Parameters
+    ----------
+    problems : iterable of Problem
+    whole : str
+        Whose arguments they are.
+    """
+
+    def __init__(self, problems: Iterable[Problem], whole: str = "arguments"):
+        self.whole = whole
+        super().__init__(problems)
+
+    def __reduce__(self) -> tuple[type[WrongFields], tuple[Any, ...]]:
+        """Pickle by the problems and whose they are."""
+        return type(self), (self.problems, self.whole)
 
 
 class WrongQuantity(SalegError, ValueError):

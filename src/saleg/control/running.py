@@ -11,6 +11,7 @@ import numpy as np
 
 from saleg.batch.many import RUN_UNITS, batch_table, run_row
 from saleg.batch.table import CHUNK, Row
+from saleg.checks import a, checked
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
 from saleg.control.plant import InPython, Plant, course_of, give
@@ -305,6 +306,7 @@ def motored_share(run: Run) -> float:
     return float(np.mean(run.strokes["motoring"] > 0.0)) if len(run.strokes) else math.nan
 
 
+@checked(run=a(Run))
 def fired_at(run: Run) -> float:
     """When the motor was first left for fuel and load [s]; NaN if never, or no longer recorded.
 
@@ -320,6 +322,7 @@ def fired_at(run: Run) -> float:
     return float(off[0]) if len(off) else math.nan
 
 
+@checked(run=a(Run))
 def motor_returns(run: Run) -> int:
     """Number of times the motor came back after the engine had been fired.
 
