@@ -21,6 +21,7 @@ from __future__ import annotations
 import functools
 import inspect
 import math
+import sys
 from collections.abc import Callable, Mapping, Set
 from typing import Any, NamedTuple, ParamSpec, TypeVar
 
@@ -129,7 +130,7 @@ def numbers(low: float = -math.inf, *, open_low: bool = False) -> Check:
         found = one.read(value)
         if found is not None:
             return found
-        array = _array(value)
+        array = as_array(value)
         good = array is not None and all(one.read(item) is not None for item in array.ravel())
         return array if good else None
 
@@ -151,7 +152,7 @@ def a(*kinds: type, wanted: str = "") -> Check:
     )
 
 
-def _array(value: Any) -> np.ndarray | None:
+def as_array(value: Any) -> np.ndarray | None:
     """Numbers in lists, arrays or columns as an array of floats; None if anything else is there."""
     try:
         given = np.asarray(value)
@@ -190,3 +191,12 @@ FLAG = Check(
 )
 TEXT = a(str, wanted="text")
 FUNCTION = Check(lambda value: value if callable(value) else None, "must be a function")
+
+
+def _frame(value: Any) -> Any:
+    """A table of pandas, which has been imported where there is one; None for anything else."""
+    pandas = sys.modules.get("pandas")
+    return value if pandas is not None and isinstance(value, pandas.DataFrame) else None
+
+
+FRAME = Check(_frame, "must be a DataFrame")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.checks import FLAG, FRAME, TEXT, checked, each
 from saleg.errors import SweepError
 from saleg.status import Status
 from saleg.sweep.points import Ranges, box, checked_seed, refuse_too_many
@@ -97,6 +98,7 @@ def saltelli_points(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     return pd.DataFrame(low + unit * (high - low), columns=list(ranges))
 
 
+@checked(table=FRAME, figure=TEXT, inputs=each(TEXT, "names").optional, unstable=FLAG)
 def indices(
     table: pd.DataFrame,
     figure: str,
