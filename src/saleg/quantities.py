@@ -11,7 +11,7 @@ from numbers import Integral, Real
 from typing import Any, NamedTuple
 
 from saleg.errors import Problem as Problem
-from saleg.errors import WrongQuantity
+from saleg.errors import WrongQuantity, shown
 
 
 class Quantities:
@@ -187,7 +187,7 @@ class Limits(NamedTuple):
 
 def _checked_unit(unit: Any) -> str:
     if not isinstance(unit, str) or not unit.isprintable():
-        raise WrongQuantity(f"unit = {unit!r}: must be one line of text, such as 'N/m'")
+        raise WrongQuantity(f"unit = {shown(unit)}: must be one line of text, such as 'N/m'")
     return unit
 
 

@@ -18,7 +18,7 @@ from saleg.control.plant import InPython, Plant, course_of, give
 from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
-from saleg.errors import ControllerError
+from saleg.errors import ControllerError, shown
 from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import ActuatorLaw
@@ -110,9 +110,9 @@ def simulate(
     laws = isinstance(controller, Controller)
     in_python = sensors is not None or sample_time is not None
     if sensors is not None and not isinstance(sensors, Sensors):
-        raise SettingsError(f"sensors = {sensors!r}: must be a saleg.control.Sensors")
+        raise SettingsError(f"sensors = {shown(sensors)}: must be a saleg.control.Sensors")
     if compiled is not None and not isinstance(compiled, (bool, np.bool_)):
-        raise SettingsError(f"compiled = {compiled!r}: must be True, False or None")
+        raise SettingsError(f"compiled = {shown(compiled)}: must be True, False or None")
     if compiled is None:
         compiled = laws and not in_python
     if compiled and (in_python or not laws):
@@ -143,7 +143,9 @@ def _checked_sample_time(sample_time: float, duration: float) -> float:
     interval, lasts = as_float(sample_time), as_float(duration)
     least = (lasts or 0.0) / MAX_SAMPLES
     if interval is None or not interval >= least or not interval > 0.0:
-        raise SettingsError(f"sample_time = {sample_time!r}: must be a number >= {least:g} [s]")
+        raise SettingsError(
+            f"sample_time = {shown(sample_time)}: must be a number >= {least:g} [s]"
+        )
     return interval
 
 

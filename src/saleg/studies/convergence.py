@@ -17,7 +17,7 @@ import numpy as np
 
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine, check_engine
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.tableaus import FIXED_STEP
 from saleg.quantities import is_number
@@ -287,11 +287,11 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
     """
     for name, value in (("duration", duration), ("step", step), ("delay", delay)):
         if not is_number(value) or not math.isfinite(value):
-            raise SettingsError(f"{name} = {value!r}: must be a number")
+            raise SettingsError(f"{name} = {shown(value)}: must be a number")
     if not 0.0 < step < duration:
         raise SettingsError(f"step = {step!r}: must be > 0 and < duration ({duration:g} s)")
     if delay < 0 or delay != int(delay):
-        raise SettingsError(f"delay = {delay!r}: must be a number of whole steps")
+        raise SettingsError(f"delay = {shown(delay)}: must be a number of whole steps")
     check_engine(engine)
     (kernel, P, control), state = compiled_engine(engine, modules=DELAYED), prepare(engine)
     records = Records(False, None)
