@@ -22,7 +22,7 @@ import functools
 import inspect
 import math
 import sys
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Callable, Iterable, Mapping, Set
 from typing import Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
@@ -143,7 +143,7 @@ def whole(low: int = 0, high: int = 2**31 - 1) -> Check:
     return Check(lambda value: int(value) if is_whole(value, low, high) else None, wanted)
 
 
-def a(*kinds: type, wanted: str = "") -> Check:
+def a(*kinds: Any, wanted: str = "") -> Check:
     """Check for an object of one of some classes."""
     named = " or ".join(kind.__name__ for kind in kinds)
     return Check(
@@ -166,11 +166,11 @@ def as_array(value: Any) -> np.ndarray | None:
 
 def _series(value: Any, read: Callable[[Any], Any]) -> list[Any] | None:
     """Items of a list or the like, each read; None if one is wrong."""
-    if isinstance(value, (str, bytes, Mapping, Set)) or not hasattr(value, "__len__"):
+    if isinstance(value, (str, bytes, Mapping, Set)) or not isinstance(value, Iterable):
         return None
     try:
         found = [read(item) for item in value]
-    except TypeError:  # a class of lists has a length, too
+    except TypeError:  # what only looks like a list
         return None
     return None if any(item is None for item in found) else found
 

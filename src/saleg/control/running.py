@@ -11,7 +11,7 @@ import numpy as np
 
 from saleg.batch.many import RUN_UNITS, batch_table, run_row
 from saleg.batch.table import CHUNK, Row
-from saleg.checks import a, checked
+from saleg.checks import NUMBER, a, checked
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
 from saleg.control.plant import InPython, Plant, course_of, give
@@ -194,6 +194,7 @@ def described(error: Exception) -> str:
         return type(error).__name__
 
 
+@checked(signals=a(Signals))
 def generator(signals: Signals, **changes: float) -> Commands:
     """Commands for a generator at rated fuel and intake, loaded as its regulator asks.
 
@@ -221,6 +222,7 @@ def generator(signals: Signals, **changes: float) -> Commands:
     return plain._replace(**changes)
 
 
+@checked(signals=a(Signals), amplitude=NUMBER, frequency=NUMBER)
 def motor(signals: Signals, amplitude: float, frequency: float, **changes: float) -> Commands:
     """Commands for a motor without fuel; its angle goes on from where it is.
 
