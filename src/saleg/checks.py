@@ -146,9 +146,10 @@ def whole(low: int = 0, high: int = 2**31 - 1) -> Check:
 def a(*kinds: Any, wanted: str = "") -> Check:
     """Check for an object of one of some classes."""
     named = " or ".join(kind.__name__ for kind in kinds)
+    article = "an" if named.startswith(("A", "E", "I", "O")) else "a"
     return Check(
         lambda value: value if isinstance(value, kinds) else None,
-        f"must be {wanted or 'a ' + named}",
+        f"must be {wanted or f'{article} {named}'}",
     )
 
 

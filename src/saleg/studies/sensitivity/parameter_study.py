@@ -31,7 +31,10 @@ CHANGE = Check(
     lambda value: value if isinstance(value, str) or callable(value) else None,
     "must be a path, or a function from a value to changes",
 )
-VALUES = a(Iterable, wanted="values in a list, or by name")
+VALUES = Check(
+    lambda value: value if isinstance(value, Iterable) and not isinstance(value, bytes) else None,
+    "must be values in a list, or by name",
+)
 PATHS = each(TEXT, "paths")
 
 #: Columns of a study beside those of :class:`saleg.Performance`, with units.
