@@ -247,8 +247,9 @@ def _first_orbit(
             again = _closed(design, sharper, finer(rtol), way, quick)
             anew = sharper.evaluations - chart.evaluations
             spent = Spent(spent.half_cycles + again.half_cycles, spent.evaluations + anew)
-            if again.found:
-                chart, orbit, rtol = sharper, again, finer(rtol)
+            if not again.found:
+                continue
+            chart, orbit, rtol = sharper, again, finer(rtol)
         steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
         return DesignedState.of(steady, design, orbit.operation), spent
     return None, spent

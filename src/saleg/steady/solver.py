@@ -337,13 +337,15 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
             continue  # unstable, or not as symmetric as it looks
         if not converged(found, rtol):
             continue
+        return_map.begin_on_the_left()
         if not is_sharp(return_map, found, rtol):
             sharper = return_map.finer(finer(rtol))
             again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
             spent += strokes
             evaluations += sharper.evaluations - return_map.evaluations
-            if converged(again, finer(rtol)):
-                return_map, found, rtol = sharper, again, finer(rtol)
+            if not converged(again, finer(rtol)):
+                continue
+            return_map, found, rtol = sharper, again, finer(rtol)
         return result_of(return_map, spent, evaluations, found.missed, "fixed point", rtol)
     if quick:
         return not_found(engine, spent, evaluations, "no orbit from the standard starts")
