@@ -11,7 +11,7 @@ from numbers import Integral, Real
 from typing import Any, NamedTuple
 
 from saleg.errors import Problem as Problem
-from saleg.errors import WrongQuantity
+from saleg.errors import WrongQuantity, shown
 
 
 class Quantities:
@@ -190,7 +190,7 @@ class Limits(NamedTuple):
 
 def _checked_unit(unit: Any) -> str:
     if not isinstance(unit, str) or not unit.isprintable():
-        raise WrongQuantity(f"unit = {unit!r}: must be one line of text, such as 'N/m'")
+        raise WrongQuantity(f"unit = {shown(unit)}: must be one line of text, such as 'N/m'")
     return unit
 
 
@@ -289,14 +289,19 @@ def problems(node: Any, path: str = "") -> list[Problem]:
             if not (is_number(value) if limits.kind is float else is_whole(value)):
                 wanted = "a number" if limits.kind is float else "a whole number"
                 found.append(Problem(where, value, limits.unit, limits.wanted(wanted)))
-            elif not math.isfinite(value) or not limits.admits(float(value)):
-                need = "" if math.isfinite(value) else "a finite number"
+            elif not _is_finite(value) or not limits.admits(value):
+                need = "" if _is_finite(value) else "a finite number"
                 found.append(Problem(where, value, limits.unit, limits.wanted(need)))
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             found.extend(problems(value, where))
         elif hasattr(node, "compiled") and not is_number(value):  # a law's record holds numbers
             found.append(Problem(where, value, "", "must be a number: a law holds numbers only"))
     return found
+
+
+def _is_finite(value: Any) -> bool:
+    """Whether a number is finite; whole numbers are, however many digits they have."""
+    return isinstance(value, int) or math.isfinite(value)
 
 
 #: Units a number may have been given in by mistake, the likeliest first: factor and offset to SI.

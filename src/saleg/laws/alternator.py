@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from saleg.checks import NUMBER, POSITIVE, checked
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator
 from saleg.laws.interpolation import bilinear, next_point
@@ -63,6 +64,7 @@ class LinearLoad(RegulatedAlternator):
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
     @classmethod
+    @checked(flux_gradient=NUMBER, load_resistance=POSITIVE, efficiency=POSITIVE)
     def from_circuit(
         cls,
         flux_gradient: float,
