@@ -66,15 +66,16 @@ def test_designs_are_compared_by_their_components_too():
 
 
 @pytest.mark.parametrize(
-    ("results", "said"),
+    "results",
     [
-        (lambda one: [one], "two results or more"),
-        (lambda one: [], "two results or more"),
-        (lambda one: one, "two or more in a list"),
-        (lambda one: [one, one.engine], "cannot compare Engine: simulate it"),
-        (lambda one: {"a": one, "b": None}, "cannot compare NoneType"),
+        lambda one: [one],
+        lambda one: [],
+        lambda one: {},
+        lambda one: one,
+        lambda one: [one, one.engine],
+        lambda one: {"a": one, "b": None},
     ],
 )
-def test_what_cannot_be_compared_is_refused(pair, results, said):
-    with pytest.raises(SalegError, match=said):
+def test_what_cannot_be_compared_is_refused(pair, results):
+    with pytest.raises(SalegError, match="two or more runs or steady states in a list or mapping"):
         saleg.compare(results(pair[0]))

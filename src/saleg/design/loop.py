@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.design.designs import Design, InvalidDesign
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
@@ -72,6 +73,7 @@ class Spent(NamedTuple):
     evaluations: int = 0
 
 
+@checked(near=a(DesignedState).optional)
 def solve(
     design: Design,
     *,
@@ -245,8 +247,9 @@ def _first_orbit(
             again = _closed(design, sharper, finer(rtol), way, quick)
             anew = sharper.evaluations - chart.evaluations
             spent = Spent(spent.half_cycles + again.half_cycles, spent.evaluations + anew)
-            if again.found:
-                chart, orbit, rtol = sharper, again, finer(rtol)
+            if not again.found:
+                continue
+            chart, orbit, rtol = sharper, again, finer(rtol)
         steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
         return DesignedState.of(steady, design, orbit.operation), spent
     return None, spent

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 from html import escape
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from saleg.checks import a, checked
 from saleg.files.atomic import new_file
 from saleg.files.reading import as_path
 from saleg.plotting.film import AnimationError, Film
 from saleg.plotting.film_files import WRITERS, write_gif
 from saleg.quantities import is_number
-
-if TYPE_CHECKING:
-    from saleg.simulation.run import Run
+from saleg.simulation.run import Run
 
 #: Limits of the number of frames, of the width [inch] and of the frames shown per second.
 FRAMES, WIDTHS, RATES = (2, 400), (4.0, 16.0), (1.0, 60.0)
@@ -83,6 +81,7 @@ class Animation:
         return f'<img src="data:image/gif;base64,{data}" alt="{alt}" style="max-width: 100%">'
 
 
+@checked(run=a(Run))
 def animation(
     run: Run,
     *,
@@ -126,6 +125,7 @@ def animation(
     return Animation(run, window, int(frames), float(width), float(rate))
 
 
+@checked(run=a(Run))
 def animate(
     run: Run,
     path: str | Path,

@@ -107,7 +107,7 @@ def placed(ax: Axes, run: Run, label: str | None) -> Iterator[Place]:
     Place
     """
     count, number = len(ax.get_lines()), runs_on(ax)
-    name = label or (f"run {number + 1}" if number else "")
+    name = str(label) if label else f"run {number + 1}" if number else ""
     if name and not run.status.ended_well:
         name += f" ({run.status})"
     yield Place(number, name)

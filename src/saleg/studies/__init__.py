@@ -1,7 +1,7 @@
 """Studies: what changes with a numerical setting, or with one number or law of an engine."""
 
 from saleg.studies import sensitivity
-from saleg.studies.comparison import NothingToCompare, compare
+from saleg.studies.comparison import compare
 from saleg.studies.convergence import (
     DELAYED,
     TABLE_2_STEPS,
@@ -25,7 +25,6 @@ __all__ = [
     "TABLE_4_TIMES",
     "UNITS",
     "WARM_UP",
-    "NothingToCompare",
     "StudyError",
     "beside_thesis",
     "compare",

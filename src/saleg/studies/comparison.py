@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.checks import Check, a, checked, each
 from saleg.design.results import COMPONENT_UNITS, DesignedState
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
-from saleg.errors import SalegError
 from saleg.quantities import is_number
 from saleg.simulation.performance import UNITS
 from saleg.simulation.run import Run
@@ -22,10 +22,24 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-class NothingToCompare(SalegError, ValueError):
-    """Fewer than two results, or something that is none."""
+def _read_results(given: Any) -> list[tuple[str, Run | SteadyState]] | None:
+    """Names and results of a list or mapping; None if there are fewer than two or others."""
+    names = list(given) if isinstance(given, Mapping) else None
+    found = _EACH.read(list(given.values()) if isinstance(given, Mapping) else given)
+    if found is None or len(found) < 2:
+        return None
+    return list(zip(names or [""] * len(found), found, strict=True))
 
 
+_EACH = each(a(Run, SteadyState), "runs or steady states")
+RESULTS = Check(
+    _read_results,
+    "must be two or more runs or steady states in a list or mapping; simulate an engine first, or "
+    "solve for its steady state",
+)
+
+
+@checked(results=RESULTS)
 def compare(results: Sequence[Run | SteadyState] | Mapping[str, Run | SteadyState]) -> pd.DataFrame:
     """Compare two or more runs, steady states or designs with the first of them.
 
@@ -45,8 +59,8 @@ def compare(results: Sequence[Run | SteadyState] | Mapping[str, Run | SteadyStat
 
     Raises
     ------
-    NothingToCompare
-        If there are fewer than two results.
+    WrongArguments
+        If there are fewer than two results, or others.
 
     Examples
     --------
@@ -59,7 +73,7 @@ def compare(results: Sequence[Run | SteadyState] | Mapping[str, Run | SteadyStat
     """
     from saleg.simulation.shown_table import Table
 
-    named = _named(results)
+    named = _named(results)  # type: ignore[arg-type]  # pairs, as checked
     inputs, units = _inputs([result.engine for result in named.values()])
     figures = [_figures(result) for result in named.values()]
     known = {name for found in figures for name in found}
@@ -79,25 +93,15 @@ def compare(results: Sequence[Run | SteadyState] | Mapping[str, Run | SteadyStat
     return table
 
 
-def _named(results: Any) -> dict[str, Run | SteadyState]:
+def _named(pairs: Sequence[tuple[str, Run | SteadyState]]) -> dict[str, Run | SteadyState]:
     """Results by unique names."""
-    if isinstance(results, Run | SteadyState):
-        raise NothingToCompare("nothing to compare one result with: hand in two or more in a list")
-    given = results if isinstance(results, Mapping) else {}
-    pairs = list(given.items()) or [("", result) for result in results]
     named: dict[str, Run | SteadyState] = {}
     for name, result in pairs:
-        if not isinstance(result, Run | SteadyState):
-            raise NothingToCompare(
-                f"cannot compare {type(result).__name__}: simulate it or solve for its steady state"
-            )
         text = str(name or result.engine.name)
         if not result.status.ended_well:
             text += f" ({result.status})"
         number = 1 + sum(known.partition(" #")[0] == text for known in named)
         named[text if number == 1 else f"{text} #{number}"] = result
-    if len(named) < 2:
-        raise NothingToCompare("nothing to compare: hand in two results or more")
     return named
 
 
