@@ -43,3 +43,25 @@ def test_links_lead_somewhere():
     for page in PAGES:
         for link in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
             assert (page.parent / link).exists(), f"{page.name}: {link}"
+
+
+def test_python_blocks_pass_a_strict_type_check(tmp_path):
+    pytest.importorskip("mypy")
+    for block in PYTHON:
+        name = block.id.replace("-", "_").lower()
+        (tmp_path / f"{name}.py").write_text(block.values[0], encoding="utf-8")
+    settings = ["--strict", "--no-error-summary", "--ignore-missing-imports"]
+    settings += ["--config-file", "", "--cache-dir", str(ROOT / ".mypy_cache" / "pages")]
+    done = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "mypy",
+            *settings,
+            *sorted(str(file) for file in tmp_path.iterdir()),
+        ],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -20,6 +20,7 @@ from saleg.plotting.style import (
     MARKERS,
     TRANSLATOR_COLOUR,
     CurveLook,
+    Drawn,
     axes_or_new,
     finish,
     marker,
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.simulation.run import Run
 
 #: Relative difference beyond which motored and actual pressure are two.
@@ -133,14 +135,14 @@ def title_of(ax: Axes, run: Run, title: str, place: Place) -> str:
 
 
 def finish_cycle(
-    ax: Axes,
+    ax: Drawn,
     cycle: Cycle,
     title: str,
     legend: str | None,
     columns: int = 1,
     *,
     column_per_run: bool = False,
-) -> Axes:
+) -> Drawn:
     """Title, grid, frame and legend; the legend of runs with names covers none of their curves."""
     place = cycle.place
     if not place.alone:
@@ -172,14 +174,14 @@ def last_cycle(run: Run) -> Cycle:
 class FigureOfRun(Protocol):
     """A figure of a run on one axes."""
 
-    def __call__(self, run: Run, ax: Axes | None = None, *, label: str | None = None) -> Axes:
+    def __call__(self, run: Run, ax: Axes | None = None, *, label: str | None = None) -> ShownAxes:
         """Draw on the axes handed in, or on new ones."""
 
 
-def figure_of_cycle(draw: Callable[[Cycle, Axes], Axes]) -> FigureOfRun:
+def figure_of_cycle(draw: Callable[[Cycle, ShownAxes], ShownAxes]) -> FigureOfRun:
     """Make a figure of a run from what draws its last cycle; completes the docstring."""
 
-    def figure(run: Run, ax: Axes | None = None, *, label: str | None = None) -> Axes:
+    def figure(run: Run, ax: Axes | None = None, *, label: str | None = None) -> ShownAxes:
         cycle, ax = last_cycle(run), axes_or_new(ax)
         with placed(ax, run, label) as place:
             return draw(replace(cycle, place=place), ax)

@@ -27,7 +27,7 @@ from saleg.simulation.readable import readable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.plotting.figure import Panels
+    from saleg.plotting.figure import Panels, ShownAxes
 
 #: Most of a drawing's size, and the least width its title needs [inch].
 WIDEST, HIGHEST, NARROWEST = 10.6, 6.4, 4.5
@@ -37,7 +37,7 @@ POWER = readable("power", "W")
 
 
 @documented()
-def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
+def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> ShownAxes:
     """Draw the engine to scale with the translator at its midpoint (Figure 62) [mm].
 
     Springs and walls are schematic, a mover of unknown diameter is left out; all else that Table 7
@@ -158,7 +158,7 @@ def alternator_map(
 
 
 @documented()
-def piston_mass(ax: Axes | None = None) -> Axes:
+def piston_mass(ax: Axes | None = None) -> ShownAxes:
     """Draw the mass of both piston heads [kg] over bore [mm] (Figure 65, Eq. 65)."""
     ax = axes_or_new(ax)
     bore = np.linspace(0.01, 0.1, 91)
@@ -170,7 +170,7 @@ def piston_mass(ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> Axes:
+def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> ShownAxes:
     """Draw the natural frequency [Hz] over spring stiffness [kN/m] (Figure 66, Eq. 67).
 
     ``sqrt(2 k / m) / (2 pi)``, with the springs' share of the moving mass growing and without; both

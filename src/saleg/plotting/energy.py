@@ -11,6 +11,7 @@ from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.simulation.performance import EnergyBalance
     from saleg.simulation.run import Run
 
@@ -98,7 +99,7 @@ def named(title: str, label: str | None) -> str:
 
 
 @documented()
-def energy_pie(run: Run, ax: Axes | None = None, *, label: str | None = None) -> Axes:
+def energy_pie(run: Run, ax: Axes | None = None, *, label: str | None = None) -> ShownAxes:
     """Draw where the fuel's energy went in the last full cycle [%] (Figure 41 of the thesis).
 
     Raises

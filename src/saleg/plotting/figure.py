@@ -35,7 +35,12 @@ class ShownFigure(Figure):
 
 
 class ShownAxes(Axes):
-    """Axes that show with all of their figure as the result of a notebook's cell."""
+    """Axes that show with all of their figure as the result of a notebook's cell.
+
+    Figures are declared to return them; axes of one's own come back as they are.
+    """
+
+    figure: Figure
 
     def _repr_png_(self) -> bytes | None:
         return _picture(self)

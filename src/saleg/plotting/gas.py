@@ -19,11 +19,11 @@ from saleg.plotting.cycle import (
 from saleg.plotting.style import COINCIDING, from_zero, zero_lines
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from saleg.plotting.figure import ShownAxes
 
 
 @figure_of_cycle
-def pressure_volume(cycle: Cycle, ax: Axes) -> Axes:
+def pressure_volume(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw pressure [bar] over volume [cm^3] of both chambers over the last full cycle.
 
     The motored pressure is dotted if ``simulate(..., motored_pressure=True)`` integrated it.
@@ -35,7 +35,7 @@ def pressure_volume(cycle: Cycle, ax: Axes) -> Axes:
 
 
 @figure_of_cycle
-def pressure_position(cycle: Cycle, ax: Axes) -> Axes:
+def pressure_position(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw pressure [bar] of both chambers over position [mm] (Figure 38 of the thesis).
 
     The motored pressure is dotted if ``simulate(..., motored_pressure=True)`` integrated it.
@@ -46,7 +46,7 @@ def pressure_position(cycle: Cycle, ax: Axes) -> Axes:
 
 
 @figure_of_cycle
-def pressure_time(cycle: Cycle, ax: Axes) -> Axes:
+def pressure_time(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw pressure [bar] of both chambers over time [ms] (Figure 39 of the thesis).
 
     The cycle begins at left dead centre. The motored pressure is dotted if
@@ -59,7 +59,7 @@ def pressure_time(cycle: Cycle, ax: Axes) -> Axes:
 
 
 @figure_of_cycle
-def heat_flow_time(cycle: Cycle, ax: Axes) -> Axes:
+def heat_flow_time(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw heat flow to the walls [kW] of both chambers over time [ms].
 
     Figure 39 of the thesis calls it heat flux; here it is the whole flow of heat to head, liner and

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.optimize.result import Found
-    from saleg.plotting.figure import Panels
+    from saleg.plotting.figure import Panels, ShownAxes
 
 #: Figures beside the parameters in parallel coordinates.
 BESIDE = ("efficiency", "power", "compression_ratio", "frequency")
@@ -33,7 +33,7 @@ LEADING: dict[str, Any] = {"color": LEFT_COLOUR, "marker": "o", "markersize": 4,
 
 
 @documented()
-def convergence(found: Found, ax: Axes | None = None) -> Axes:
+def convergence(found: Found, ax: Axes | None = None) -> ShownAxes:
     """Draw the best objective so far and the mean of each generation over evaluations (Figure 86).
 
     The mean of the genetic algorithm is that over parents and children before selection.
@@ -102,7 +102,7 @@ def groups(found: Found, x: str = "stroke_to_bore", ax: Any = None) -> Panels:
 @documented()
 def archive(
     found: Found, across: Axis | None = None, up: Axis | None = None, ax: Axes | None = None
-) -> Axes:
+) -> ShownAxes:
     """Draw the best objective in every cell of a map over two figures.
 
     A cell without colour holds no design that meets the limits.
@@ -140,7 +140,7 @@ def _axes_of_map(found: Found, across: Axis | None, up: Axis | None) -> tuple[Ax
 
 
 @documented()
-def parallel(found: Found, count: int = 100, ax: Axes | None = None) -> Axes:
+def parallel(found: Found, count: int = 100, ax: Axes | None = None) -> ShownAxes:
     """Draw the best designs as lines over parameters and figures, the best one thick.
 
     Every axis runs from the lower to the upper bound of its parameter, or from the least to the
@@ -196,7 +196,7 @@ def _ends(found: Found, kept: pd.DataFrame, name: str) -> tuple[float, float]:
 
 
 @documented()
-def front(found: Found, ax: Axes | None = None) -> Axes:
+def front(found: Found, ax: Axes | None = None) -> ShownAxes:
     """Draw designs over the first two objectives, and the front of those none of which is better.
 
     Parameters
@@ -237,7 +237,7 @@ def score(found: Found, ax: Any = None) -> Panels:
 
 
 @documented()
-def engine(found: Found, ax: Axes | None = None) -> Axes:
+def engine(found: Found, ax: Axes | None = None) -> ShownAxes:
     """Draw the best design to scale with the translator at its midpoint [mm].
 
     Parameters

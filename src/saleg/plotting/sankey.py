@@ -20,6 +20,7 @@ from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.simulation.performance import EnergyBalance
     from saleg.simulation.run import Run
 
@@ -40,7 +41,7 @@ class _Node(NamedTuple):
 
 
 @documented()
-def energy_sankey(run: Run, ax: Axes | None = None, *, label: str | None = None) -> Axes:
+def energy_sankey(run: Run, ax: Axes | None = None, *, label: str | None = None) -> ShownAxes:
     """Draw the energy balance of the last full cycle as a Sankey diagram [J, %].
 
     Widths and percentages are parts of the energy of the fresh fuel. Energy that comes from

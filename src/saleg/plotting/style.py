@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from saleg.plotting.figure import Panels
+    from saleg.plotting.figure import Panels, ShownAxes
 
 #: Colours of the two chambers in every plot (Okabe and Ito, safe for the colour-blind).
 LEFT_COLOUR = "#0072B2"
@@ -34,6 +34,9 @@ MARKERS = {
     "ignition": "*",
     "end of combustion": "s",
 }
+
+
+Drawn = TypeVar("Drawn", bound="Axes")
 
 
 class CurveLook(NamedTuple):
@@ -80,7 +83,7 @@ def new_figure(width: float = 6.4, height: float = 4.4) -> Figure:
     return figure
 
 
-def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> Axes:
+def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> ShownAxes:
     """The axes handed in, or those of a new figure of the given size [inch].
 
     Raises
@@ -88,7 +91,8 @@ def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> Axe
     AxesError
         If it is no axes.
     """
-    return new_figure(width, height).subplots() if ax is None else _checked(ax)
+    drawn: Any = new_figure(width, height).subplots() if ax is None else _checked(ax)
+    return drawn
 
 
 def panels_or_new(
@@ -179,7 +183,7 @@ def from_zero(ax: Axes) -> None:
     ax.set_ylim(0.0, 1.05 * ax.dataLim.ymax)
 
 
-def finish(ax: Axes, title: str, legend: str | None, columns: int = 1) -> Axes:
+def finish(ax: Drawn, title: str, legend: str | None, columns: int = 1) -> Drawn:
     """Title, grid, frame and legend; the legend ``"below"`` stands under the axes."""
     ax.set_title(title, fontsize="medium")
     ax.grid(visible=True, color="0.92", linewidth=0.6)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-    from saleg.plotting.figure import Panels
+    from saleg.plotting.figure import Panels, ShownAxes
     from saleg.sweep.sobol_indices import Indices
 
 #: Figures of the panels, in order.
@@ -151,7 +151,7 @@ def design_map(
 
 
 @documented()
-def indices(found: Indices, ax: Axes | None = None) -> Axes:
+def indices(found: Indices, ax: Axes | None = None) -> ShownAxes:
     """Draw Sobol' indices as bars with their intervals, the most important input on top.
 
     Parameters

@@ -41,6 +41,7 @@ from saleg.simulation.readable import readable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.simulation.run import Run
 
 FORCE = readable("spring_force", "N", "force to the right")
@@ -48,7 +49,7 @@ EFFICIENCY = readable("efficiency", "-")
 
 
 @figure_of_cycle
-def velocity_position(cycle: Cycle, ax: Axes) -> Axes:
+def velocity_position(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw velocity [m/s] over position [mm] of the translator (Figure 36 of the thesis)."""
     zero_lines(ax, x=True, y=True)
     draw_translator(ax, cycle, POSITION, VELOCITY)
@@ -56,7 +57,7 @@ def velocity_position(cycle: Cycle, ax: Axes) -> Axes:
 
 
 @figure_of_cycle
-def acceleration_velocity(cycle: Cycle, ax: Axes) -> Axes:
+def acceleration_velocity(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw acceleration [km/s^2] over velocity [m/s] (Figure 37 of the thesis)."""
     zero_lines(ax, x=True, y=True)
     draw_translator(ax, cycle, VELOCITY, ACCELERATION)
@@ -64,7 +65,7 @@ def acceleration_velocity(cycle: Cycle, ax: Axes) -> Axes:
 
 
 @figure_of_cycle
-def forces(cycle: Cycle, ax: Axes) -> Axes:
+def forces(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw the forces on the translator [kN], positive to the right, over time [ms].
 
     Pressure of the gas on either crown, springs, friction and alternator; their sum is mass times
@@ -97,7 +98,7 @@ def forces(cycle: Cycle, ax: Axes) -> Axes:
 
 
 @figure_of_cycle
-def power(cycle: Cycle, ax: Axes) -> Axes:
+def power(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw electrical power [kW] over time [ms], its mean and RMS (Figure 40 of the thesis)."""
     strokes, period = cycle.strokes, cycle.period
     mean = POWER.scale * float(strokes["electrical_energy"].sum()) / period
@@ -120,7 +121,7 @@ def power(cycle: Cycle, ax: Axes) -> Axes:
 @documented()
 def efficiency(
     run: Run, ax: Axes | None = None, *, label: str | None = None, cycles: int = 10
-) -> Axes:
+) -> ShownAxes:
     """Draw the running efficiency [%] over time [ms] (Figure 40 of the thesis).
 
     The running efficiency is a cumulative one: electrical energy over the fuel energy of all fresh
@@ -149,7 +150,7 @@ def efficiency(
         return _draw_efficiency(ax, replace(cycle, place=place), cycles, spent)
 
 
-def _draw_efficiency(ax: Axes, cycle: Cycle, cycles: int, spent: float) -> Axes:
+def _draw_efficiency(ax: ShownAxes, cycle: Cycle, cycles: int, spent: float) -> ShownAxes:
     """Running efficiency over some cycles, and that of the last one with the fuel it spent [J]."""
     cycles = min(max(int(cycles), 1), len(cycle.run.cycles))
     running = EFFICIENCY.of(_running_efficiency(cycle, cycles))

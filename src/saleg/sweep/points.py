@@ -23,7 +23,7 @@ Ranges = Mapping[str, Sequence[float]]
 MOST_POINTS = 10_000_000
 
 
-def grid(values: Mapping[str, Sequence[float]]) -> pd.DataFrame:
+def grid(values: Mapping[str, Sequence[float] | np.ndarray]) -> pd.DataFrame:
     """Every value of every input with every other; the last input runs fastest.
 
     Parameters

@@ -42,7 +42,7 @@ from saleg.plotting.style import panels_or_new
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.plotting.figure import Panels
+    from saleg.plotting.figure import Panels, ShownAxes
 
 #: Midpoint pressure and heat of all figures [-]: about those of the base case.
 PRESSURE, HEAT = 0.17, 2.2
@@ -132,32 +132,32 @@ def _combined(gas: Gas, start: float, share: float) -> History:
 # ---- drawings ----------------------------------------------------------------------------------
 
 
-def figure_9(ax: Axes | None = None) -> Axes:
+def figure_9(ax: Axes | None = None) -> ShownAxes:
     """Draw the runaway: velocity over position."""
     return plots.phase_portrait(excess(), ax)
 
 
-def figure_10(ax: Axes | None = None) -> Axes:
+def figure_10(ax: Axes | None = None) -> ShownAxes:
     """Draw the decay: velocity over position."""
     return plots.phase_portrait(deficit(), ax)
 
 
-def figure_11(ax: Axes | None = None) -> Axes:
+def figure_11(ax: Axes | None = None) -> ShownAxes:
     """Draw the rise to the equilibrium: velocity over position."""
     return plots.phase_portrait(from_below(), ax)
 
 
-def figure_12(ax: Axes | None = None) -> Axes:
+def figure_12(ax: Axes | None = None) -> ShownAxes:
     """Draw the fall to the equilibrium: velocity over position."""
     return plots.phase_portrait(from_above(), ax)
 
 
-def figure_13(ax: Axes | None = None) -> Axes:
+def figure_13(ax: Axes | None = None) -> ShownAxes:
     """Draw the equilibrium of Eq. 32: velocity over position."""
     return plots.phase_portrait(held(), ax)
 
 
-def figure_14(ax: Axes | None = None) -> Axes:
+def figure_14(ax: Axes | None = None) -> ShownAxes:
     """Draw the constant and the cosine work force over position."""
     return plots.load_profiles(profiles(), DEEP, ax)
 
@@ -175,7 +175,7 @@ def figure_16(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     return _motion(early(), ax)
 
 
-def figure_17(ax: Axes | None = None) -> Axes:
+def figure_17(ax: Axes | None = None) -> ShownAxes:
     """Draw the pressure loops without and with heat transfer, and their inversion."""
     return plots.pressure_loops(lossy(), ax)
 

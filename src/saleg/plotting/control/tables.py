@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-    from saleg.plotting.figure import Panels
+    from saleg.plotting.figure import Panels, ShownAxes
 
 #: How runs that still change are called.
 UNSETTLED = "not settled: its last cycle"
@@ -123,7 +123,7 @@ def operating_grid(table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None =
 
 
 @documented()
-def survival(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
+def survival(table: pd.DataFrame, ax: Axes | None = None) -> ShownAxes:
     """Draw the time to recover [s] over the strokes without fuel, with the motor and without it.
 
     Engines that stall have no such time: crosses on the axis count them.

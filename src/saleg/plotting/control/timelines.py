@@ -34,7 +34,7 @@ from saleg.simulation.readable import readable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from saleg.plotting.figure import Panels
+    from saleg.plotting.figure import Panels, ShownAxes
     from saleg.simulation.run import Run
 
 #: Relative change below which a command counts as constant.
@@ -72,7 +72,7 @@ def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
 
 
 @documented()
-def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
+def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> ShownAxes:
     """Draw the compression ratio [-] over time [s] for several base frequencies (Figure 99).
 
     Parameters
