@@ -1,0 +1,153 @@
+"""Docstrings of the public names: a summary, parameters as in the signature, units of numbers."""
+
+import enum
+import importlib
+import inspect
+import re
+
+import pytest
+
+#: Packages and modules a user imports from.
+PUBLIC = (
+    "saleg",
+    "saleg.continuation",
+    "saleg.control",
+    "saleg.design",
+    "saleg.design.formulas",
+    "saleg.engine",
+    "saleg.errors",
+    "saleg.export",
+    "saleg.fundamental",
+    "saleg.laws",
+    "saleg.machines",
+    "saleg.optimize",
+    "saleg.plotting",
+    "saleg.plotting.branches",
+    "saleg.plotting.control",
+    "saleg.plotting.design",
+    "saleg.plotting.fundamental",
+    "saleg.plotting.optimisation",
+    "saleg.plotting.sensitivity",
+    "saleg.plotting.studies",
+    "saleg.plotting.sweeps",
+    "saleg.quantities",
+    "saleg.reference",
+    "saleg.sensitivity",
+    "saleg.start",
+    "saleg.studies",
+    "saleg.sweep",
+    "saleg.thesis.beside",
+    "saleg.thesis.chapter_2",
+    "saleg.thesis.chapter_3",
+    "saleg.thesis.chapter_4",
+    "saleg.thesis.chapter_5",
+    "saleg.thesis.optimisation",
+    "saleg.thesis.tables",
+)
+#: A unit in a description: ``[m/s]``, ``[-]``.
+UNIT = re.compile(r"\[[^\]]+\]")
+
+
+def names_of(module):
+    """Public names of a module: those it lists, or those it defines."""
+    if hasattr(module, "__all__"):
+        return module.__all__
+    return [
+        name
+        for name, value in vars(module).items()
+        if not name.startswith("_") and getattr(value, "__module__", None) == module.__name__
+    ]
+
+
+def public_callables():
+    """Each public function and class once, by its first public name."""
+    found = {}
+    for name in PUBLIC:
+        module = importlib.import_module(name)
+        for attribute in names_of(module):
+            value = getattr(module, attribute)
+            if inspect.isfunction(value) or inspect.isclass(value):
+                found.setdefault(value, f"{name}.{attribute}")
+    return {name: value for value, name in found.items()}
+
+
+CALLABLES = public_callables()
+FUNCTIONS = {name: value for name, value in CALLABLES.items() if inspect.isfunction(value)}
+CLASSES = {name: value for name, value in CALLABLES.items() if inspect.isclass(value)}
+
+
+def section(text, title):
+    """Text of a section of a numpydoc docstring, without its title."""
+    found = re.search(rf"^{title}\n-+\n(.*?)(?=^\S[^\n]*\n-+\n|\Z)", text, re.M | re.S)
+    return found[1] if found else ""
+
+
+def entries(text):
+    """Names, type and description of each entry of a section."""
+    _, *parts = re.split(r"^(\S[^\n]*)$", text, flags=re.M)
+    for head, description in zip(parts[::2], parts[1::2], strict=True):
+        names, _, kind = head.partition(" : ")
+        yield [name.strip() for name in names.split(",")], kind, description
+
+
+def described(text, *titles):
+    return [name for title in titles for names, *_ in entries(section(text, title)) for name in names]
+
+
+def without_units(text):
+    """Entries for plain floats whose description names no unit."""
+    return [
+        names
+        for title in ("Parameters", "Attributes", "Returns")
+        for names, kind, description in entries(section(text, title))
+        if re.fullmatch(r"(float|array)(, optional)?", kind or names[0]) and not UNIT.search(description + kind)
+    ]
+
+
+def signature(value):
+    """Parameters as a docstring writes them, without ``self``."""
+    stars = {inspect.Parameter.VAR_POSITIONAL: "*", inspect.Parameter.VAR_KEYWORD: "**"}
+    parameters = inspect.signature(value).parameters.values()
+    return [stars.get(p.kind, "") + p.name for p in parameters if p.name not in ("self", "cls")]
+
+
+def members(kind):
+    """Public methods and properties a class defines itself, with the function behind each."""
+    for name, value in vars(kind).items():
+        value = getattr(value, "fget", None) or getattr(value, "__func__", None) or value
+        if not name.startswith("_") and inspect.isfunction(value):
+            yield name, value
+
+
+@pytest.mark.parametrize("name", CALLABLES)
+def test_the_docstring_begins_with_a_summary(name):
+    first, _, rest = inspect.getdoc(CALLABLES[name]).partition("\n")
+    assert first.endswith((".", ":", "``."))
+    assert not rest or rest.startswith("\n")
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_describes_its_parameters(name):
+    assert described(inspect.getdoc(FUNCTIONS[name]), "Parameters") == signature(FUNCTIONS[name])
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_a_class_describes_its_parameters_and_members(name):
+    kind = CLASSES[name]
+    for member, function in members(kind):
+        text = inspect.getdoc(getattr(kind, member))
+        assert text, member
+        assert described(text, "Parameters") in ([], signature(function)), member
+    if not issubclass(kind, BaseException | enum.Enum):
+        texts = [inspect.getdoc(one) or "" for one in kind.__mro__]
+        known = {one for text in texts for one in described(text, "Parameters", "Attributes")}
+        assert not set(signature(kind)) - known
+
+
+@pytest.mark.parametrize("name", CALLABLES)
+def test_numbers_have_units(name):
+    value = CALLABLES[name]
+    texts = [inspect.getdoc(value)]
+    if inspect.isclass(value):
+        texts += [inspect.getdoc(getattr(value, member)) for member, _ in members(value)]
+    assert not [one for text in texts for one in without_units(text)]
