@@ -28,7 +28,12 @@ myst_enable_extensions = ["deflist"]
 
 # Docstrings describe types and units of parameters themselves.
 default_role = "code"
-autodoc_default_options = {"members": True, "member-order": "bysource", "show-inheritance": True}
+autodoc_default_options = {
+    "members": True,
+    "member-order": "bysource",
+    "show-inheritance": True,
+    "no-value": True,
+}
 autodoc_typehints = "none"
 autodoc_preserve_defaults = True
 numpydoc_show_class_members = False

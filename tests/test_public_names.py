@@ -1,4 +1,4 @@
-"""Docstrings of the public names: a summary, parameters as in the signature, units of numbers."""
+"""Public names: docstrings with summary, parameters and units; each in the reference, once."""
 
 import enum
 import importlib
@@ -7,6 +7,8 @@ import re
 
 import pytest
 
+from helpers import ROOT
+
 #: Packages and modules a user imports from.
 PUBLIC = (
     "saleg",
@@ -14,7 +16,6 @@ PUBLIC = (
     "saleg.control",
     "saleg.design",
     "saleg.design.formulas",
-    "saleg.engine",
     "saleg.errors",
     "saleg.export",
     "saleg.fundamental",
@@ -44,8 +45,10 @@ PUBLIC = (
     "saleg.thesis.optimisation",
     "saleg.thesis.tables",
 )
-#: A unit in a description: ``[m/s]``, ``[-]``.
-UNIT = re.compile(r"\[[^\]]+\]")
+#: A unit in a description: ``[m/s]``, ``[-]``, "in the unit of the figure".
+UNIT = re.compile(r"\[[^\]]+\]|in (its|that|the)( SI)? unit|square of its unit", re.IGNORECASE)
+#: A number that is a flag or a count: "1 for a motor, 0 for a generator".
+FLAG = re.compile(r"\b[01]\b|zero")
 
 
 def names_of(module):
@@ -91,16 +94,20 @@ def entries(text):
 
 
 def described(text, *titles):
-    return [name for title in titles for names, *_ in entries(section(text, title)) for name in names]
+    return [
+        name for title in titles for names, *_ in entries(section(text, title)) for name in names
+    ]
 
 
 def without_units(text):
-    """Entries for plain floats whose description names no unit."""
+    """Entries for plain floats whose description, or summary for what is returned, has no unit."""
+    summary = text.partition("\n")[0]
     return [
         names
         for title in ("Parameters", "Attributes", "Returns")
         for names, kind, description in entries(section(text, title))
-        if re.fullmatch(r"(float|array)(, optional)?", kind or names[0]) and not UNIT.search(description + kind)
+        if re.fullmatch(r"(float|array)(, optional)?", kind or names[0])
+        and not UNIT.search(description + (summary if title == "Returns" else ""))
     ]
 
 
@@ -138,7 +145,7 @@ def test_a_class_describes_its_parameters_and_members(name):
         text = inspect.getdoc(getattr(kind, member))
         assert text, member
         assert described(text, "Parameters") in ([], signature(function)), member
-    if not issubclass(kind, BaseException | enum.Enum):
+    if not issubclass(kind, BaseException | enum.Enum) and not getattr(kind, "_is_protocol", False):
         texts = [inspect.getdoc(one) or "" for one in kind.__mro__]
         known = {one for text in texts for one in described(text, "Parameters", "Attributes")}
         assert not set(signature(kind)) - known
@@ -147,7 +154,35 @@ def test_a_class_describes_its_parameters_and_members(name):
 @pytest.mark.parametrize("name", CALLABLES)
 def test_numbers_have_units(name):
     value = CALLABLES[name]
-    texts = [inspect.getdoc(value)]
-    if inspect.isclass(value):
-        texts += [inspect.getdoc(getattr(value, member)) for member, _ in members(value)]
-    assert not [one for text in texts for one in without_units(text)]
+    functions = [value] if inspect.isfunction(value) else [one for _, one in members(value)]
+    for one in {value, *functions}:
+        assert not without_units(inspect.getdoc(one) or "")
+    for one in functions:
+        if one.__annotations__.get("return") == "float":
+            text = inspect.getdoc(one) or inspect.getdoc(getattr(value, one.__name__))
+            assert UNIT.search(text) or FLAG.search(text), one.__name__
+
+
+def test_the_reference_has_every_public_name_once():
+    """Names that two packages share stand with one of them."""
+    names, data = [], set()
+    for page in sorted((ROOT / "docs" / "api").glob("*.rst")):
+        for directive, name in re.findall(r"^\.\. (\w+):: (\S+)$", page.read_text(), re.M):
+            if directive == "currentmodule":
+                module = importlib.import_module(name)
+            elif directive == "autodata":
+                data.add((module.__name__, name))
+            else:
+                names.append(getattr(module, name))
+    assert len(names) == len(set(names))
+    assert set(names) == set(CALLABLES.values())
+    wanted = {
+        (name, attribute)
+        for name in PUBLIC
+        for attribute in getattr(importlib.import_module(name), "__all__", ())
+        if attribute != "__version__"
+    }
+    unlike = (inspect.ismodule, inspect.isfunction, inspect.isclass)
+    values = {pair: getattr(importlib.import_module(pair[0]), pair[1]) for pair in wanted}
+    plain = {pair for pair, value in values.items() if not any(test(value) for test in unlike)}
+    assert plain <= data

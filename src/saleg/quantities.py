@@ -13,6 +13,8 @@ from typing import Any, NamedTuple
 from saleg.errors import Problem as Problem
 from saleg.errors import WrongQuantity
 
+__all__ = ["Quantities", "problems", "quantity", "series", "unusual"]
+
 
 class Quantities:
     """Base of dataclasses of quantities: numbers become floats at the door, exactly.
@@ -51,9 +53,9 @@ def quantity(
     unit : str
         SI unit as people write it, ``"-"`` for a pure number.
     default : float, optional
-        Default value; the field is required without one.
+        Default value, in that unit; the field is required without one.
     low, high : float
-        Allowed range.
+        Allowed range, in that unit.
     open_low, open_high : bool
         Whether the end itself is excluded.
     usual : (float, float), optional
@@ -108,7 +110,7 @@ def series(
     default : tuple of float, optional
         Default values; the field is required without.
     low, high : float
-        Allowed range of every number.
+        Allowed range of every number, in that unit.
     rising : bool
         Whether every number must be greater than the one before.
     never_falling : bool

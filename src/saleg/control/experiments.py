@@ -312,7 +312,7 @@ def misfires(
     strokes : sequence of int
         Numbers of strokes without fuel.
     at, duration : float
-        As for :func:`misfire`.
+        As for :func:`misfire` [s].
     **settings
         Further settings of :func:`saleg.control.simulate`.
 

@@ -53,7 +53,7 @@ class LinearLoad(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -120,7 +120,7 @@ class ConstantForce(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -153,7 +153,7 @@ class CosineForce(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -194,7 +194,7 @@ class CircuitAlternator(RegulatedAlternator):
     least_weight : float
         Load weight at which the circuit counts as open: the load resistance grows no further [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -243,7 +243,7 @@ class FluxProfile(RegulatedAlternator):
     cogging : tuple of float
         Fourier coefficients c_n of the cogging force, from n = 1 on [N].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     load_constant: float = quantity("N s/m", default=70.0, low=0)
@@ -299,7 +299,7 @@ class ForceMap(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     positions: tuple[float, ...] = series("m", default=(0.0,), rising=True)
