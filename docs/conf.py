@@ -64,28 +64,45 @@ def leave_out_fields(app, what, name, value, skip, options):
 
 def link_names(app, doctree, docname):
     """Link names in code (``saleg.simulate``, ``Hohenberg``) and in types of parameters."""
+    known = app.env.domains["py"].objects
+    by_name = {}
+    for path, entry in known.items():
+        if entry.objtype in ("class", "exception"):
+            by_name.setdefault(path.rpartition(".")[2], {})[entry.node_id] = entry
 
     def linked(text, child):
-        name = re.match(r"[\w.]*", text)[0]
-        for path in (name, f"saleg.{name}", f"saleg.laws.{name}"):
-            entry = app.env.domains["py"].objects.get(path)
-            if entry:
-                return make_refnode(app.builder, docname, entry.docname, entry.node_id, child)
-        return child
+        path = re.match(r"[\w.]*", text)[0]
+        found = list(by_name.get(path.rpartition(".")[2], {}).values())
+        entry = (
+            known.get(path) or known.get(f"saleg.{path}") if len(found) < 2 or "." in path else None
+        )
+        entry = entry or (found[0] if len(found) == 1 else None)
+        if entry is None:
+            return child
+        return make_refnode(app.builder, docname, entry.docname, entry.node_id, child)
 
     for literal in list(doctree.findall(nodes.literal)):
         if not isinstance(literal.parent, nodes.reference):
             literal.parent.replace(literal, linked(literal.astext(), literal.deepcopy()))
-    for link in doctree.findall(download_reference):  # long names of tests may break at underscores
+    for term in doctree.findall(nodes.term):
+        for kind in [*term.findall(nodes.classifier), *term.findall(nodes.strong)]:
+            words = re.split(r"([\w.]+)", kind.astext())
+            kind.children = []
+            kind += [linked(word, nodes.Text(word)) for word in words if word]
+
+
+def tidy(app, doctree, docname):
+    """Leave out bases that say nothing, and let long names of tests break at underscores."""
+    for paragraph in list(doctree.findall(nodes.paragraph)):
+        if paragraph.astext() == "Bases: object":
+            paragraph.parent.remove(paragraph)
+    for link in doctree.findall(download_reference):
         for text in link.findall(nodes.Text):
             text.parent.replace(text, nodes.Text(text.replace("_", "_\u200b")))
-    for kind in doctree.findall(nodes.classifier):
-        words = re.split(r"([\w.]+)", kind.astext())
-        kind.children = []
-        kind += [linked(word, nodes.Text(word)) for word in words if word]
 
 
 def setup(app):
     """Connect to Sphinx."""
     app.connect("autodoc-skip-member", leave_out_fields)
     app.connect("doctree-resolved", link_names)
+    app.connect("doctree-resolved", tidy)
