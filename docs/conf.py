@@ -84,11 +84,14 @@ def link_names(app, doctree, docname):
     for literal in list(doctree.findall(nodes.literal)):
         if not isinstance(literal.parent, nodes.reference):
             literal.parent.replace(literal, linked(literal.astext(), literal.deepcopy()))
-    for term in doctree.findall(nodes.term):
-        for kind in [*term.findall(nodes.classifier), *term.findall(nodes.strong)]:
-            words = re.split(r"([\w.]+)", kind.astext())
-            kind.children = []
-            kind += [linked(word, nodes.Text(word)) for word in words if word]
+    types = [*doctree.findall(nodes.classifier)]
+    for term in doctree.findall(nodes.term):  # what is returned or raised
+        types += term.findall(nodes.strong)
+        types += [term] if all(isinstance(child, nodes.Text) for child in term) else []
+    for kind in types:
+        words = re.split(r"([\w.]+)", kind.astext())
+        kind.children = []
+        kind += [linked(word, nodes.Text(word)) for word in words if word]
 
 
 def tidy(app, doctree, docname):
