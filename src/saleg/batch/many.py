@@ -12,6 +12,7 @@ from saleg.batch.table import CHUNK, Row, in_pieces, rows_of, table_of
 from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine, check_engine
+from saleg.errors import shown
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import integrate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
@@ -150,7 +151,7 @@ def batch_table(
     """Table with a row per item and a column per unit, whoever does the work."""
     check_workers(executor, workers, chunk)
     if not np.iterable(items):
-        raise SettingsError(f"engines = {items!r}: must be a list of engines, or the like")
+        raise SettingsError(f"engines = {shown(items)}: must be a list of engines, or the like")
     parts = in_pieces(
         partial(rows_of, row_of),
         items,
