@@ -82,7 +82,7 @@ def quantity(
     >>> problems(Rod(-1.0), "rod")[0].path
     'rod.length'
     >>> str(unusual(Rod(250.0))[0])
-    'length = 250.0 [m]: usually 0.01 to 3; it would be 0.25 if given in mm'
+    'length = 250.0 [m]: usually 0.01 to 3; it would be 0.25 if given in mm, 2.5 if given in cm'
     """
     ends = float(low), float(high), open_low, open_high
     limits = Limits(_checked_unit(unit), *ends, usual, int if whole else float)
