@@ -18,7 +18,6 @@ extensions = [
     "numpydoc",
     "sphinx.ext.autodoc",
     "sphinx.ext.viewcode",
-    "sphinx_design",
 ]
 exclude_patterns = ["images"]
 
@@ -72,11 +71,12 @@ def link_names(app, doctree, docname):
 
     def linked(text, child):
         path = re.match(r"[\w.]*", text)[0]
-        found = list(by_name.get(path.rpartition(".")[2], {}).values())
-        entry = (
-            known.get(path) or known.get(f"saleg.{path}") if len(found) < 2 or "." in path else None
-        )
-        entry = entry or (found[0] if len(found) == 1 else None)
+        same = list(by_name.get(path.rpartition(".")[2], {}).values())
+        entry = known.get(path)
+        if entry is None and ("." in path or not same):
+            entry = known.get(f"saleg.{path}")
+        if entry is None and len(same) == 1:
+            entry = same[0]
         if entry is None:
             return child
         return make_refnode(app.builder, docname, entry.docname, entry.node_id, child)
