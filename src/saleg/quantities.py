@@ -98,6 +98,7 @@ def series(
     ends: tuple[float, float] | None = None,
     at_least: int = 1,
     length: str = "",
+    usual: tuple[float, float] | None = None,
 ) -> Any:
     """Declare a dataclass field that holds some numbers of one unit, as a tuple.
 
@@ -120,6 +121,8 @@ def series(
     length : str
         Name of the fields that say how many numbers there must be: one series, or several
         joined by ``*`` for a table over all their combinations.
+    usual : (float, float), optional
+        Range of what has been built, generously; see :func:`unusual`. 0 is never unusual.
 
     Returns
     -------
@@ -140,7 +143,7 @@ def series(
     >>> str(problems(Profile((0.0, 2.0, 1.0)))[0])
     'x = (0.0, 2.0, 1.0) [m]: every number must be greater than the one before'
     """
-    limits = Limits(_checked_unit(unit), float(low), float(high), False, False)
+    limits = Limits(_checked_unit(unit), float(low), float(high), False, False, usual)
     shape = Shape(rising, never_falling, ends, at_least, length)
     return dataclasses.field(default=default, metadata={"limits": limits, "series": shape})
 
@@ -311,6 +314,8 @@ GIVEN_IN = {
     "N/m": (("kN/m", 1e3, 0.0), ("N/mm", 1e3, 0.0)),
     "J/kg": (("MJ/kg", 1e6, 0.0), ("kJ/kg", 1e3, 0.0)),
     "H": (("mH", 1e-3, 0.0), ("uH", 1e-6, 0.0)),
+    "W": (("kW", 1e3, 0.0), ("MW", 1e6, 0.0)),
+    "Hz": (("1/min", 1.0 / 60.0, 0.0),),
 }
 
 
@@ -335,9 +340,33 @@ def unusual(node: Any, path: str = "") -> list[Problem]:
         value, where = getattr(node, name), f"{path}.{name}" if path else name
         if limits is None:
             found.extend(unusual(value, where) if dataclasses.is_dataclass(value) else ())
-        elif value and not limits.usual[0] <= value <= limits.usual[1]:
-            found.append(Problem(where, value, limits.unit, _usual_text(value, limits)))
+            continue
+        numbers = value if isinstance(value, tuple) else (value,)
+        odd = [number for number in numbers if not is_usual(number, limits)]
+        if odd:
+            found.append(Problem(where, value, limits.unit, _usual_text(odd[0], limits)))
     return found
+
+
+def unusual_number(name: str, value: float, unit: str, usual: tuple[float, float]) -> str:
+    """What is unusual about a number that stands by itself; empty if nothing is.
+
+    Parameters
+    ----------
+    name, unit : str
+    value : float
+    usual : (float, float)
+        Range of what has been built, generously.
+    """
+    limits = Limits(unit, -math.inf, math.inf, False, False, usual)
+    if is_usual(value, limits):
+        return ""
+    return str(Problem(name, value, unit, _usual_text(value, limits)))
+
+
+def is_usual(value: float, limits: Limits) -> bool:
+    """Whether a number is in its usual range; 0 is, and so is any without one."""
+    return value == 0.0 or limits.usual is None or limits.usual[0] <= value <= limits.usual[1]
 
 
 @lru_cache(maxsize=1024)
@@ -350,10 +379,12 @@ def _with_usual_range(kind: Any) -> tuple[tuple[str, Any], ...]:
 def _usual_text(value: float, limits: Limits) -> str:
     low, high = limits.usual or (0.0, 0.0)
     text = f"usually {low:g} to {high:g}"
-    for unit, factor, offset in GIVEN_IN.get(limits.unit, ()):
-        if low <= factor * value + offset <= high:
-            return f"{text}; it would be {factor * value + offset:g} if given in {unit}"
-    return text
+    likely = [
+        f"{factor * value + offset:g} if given in {unit}"
+        for unit, factor, offset in GIVEN_IN.get(limits.unit, ())
+        if low <= factor * value + offset <= high
+    ]
+    return f"{text}; it would be {', '.join(likely)}" if likely else text
 
 
 def _series_problems(node: Any, field: dataclasses.Field[Any], where: str) -> list[Problem]:

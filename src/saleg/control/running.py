@@ -121,7 +121,7 @@ def simulate(
         raise SettingsError("actuators: a Controller has its own; replace those")
     if compiled and isinstance(controller, Controller):
         run = _compiled(engine, controller, duration, settings)
-        warn_of_unusual(engine)
+        warn_of_unusual(engine, controller)
         return run
     if sample_time is not None:
         sample_time = _checked_sample_time(sample_time, duration)

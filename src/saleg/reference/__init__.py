@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import Engine, check_engine
+from saleg.engine import Engine, check_engine, warn_of_unusual
 from saleg.errors import shown
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
@@ -91,6 +91,7 @@ def simulate(
     True
     """
     check_engine(engine)
+    warn_of_unusual(engine)
     rtol, stall_stroke, duration = _checked(solver, rtol, stall_stroke, duration)
     check_flag("jitted", jitted)
     check_flag("motored_pressure", motored_pressure)
