@@ -345,7 +345,8 @@ def unusual(node: Any, path: str = "") -> list[Problem]:
             continue
         numbers = value if isinstance(value, tuple) else (value,)
         odd = [number for number in numbers if not is_usual(number, limits)]
-        if odd:
+        # A slip of units is one of all numbers; 0 is the same in all.
+        if odd and len(odd) == sum(number != 0.0 for number in numbers):
             found.append(Problem(where, value, limits.unit, _usual_text(odd[0], limits)))
     return found
 
