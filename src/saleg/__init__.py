@@ -31,7 +31,7 @@ from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.status import Status
 from saleg.steady.solver import Effort, SteadyState, steady_state
-from saleg.version import __version__
+from saleg.version import __version__, show_versions
 
 if TYPE_CHECKING:  # imported on first use
     from saleg import control as control
@@ -73,6 +73,7 @@ __all__ = [
     "laws",
     "machines",
     "quantities",
+    "show_versions",
     "simulate",
     "simulate_many",
     "steady_state",

@@ -33,7 +33,7 @@ class DesignSolver:
     design : Design
         What the values of a row replace something of.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state.
     warm : bool
@@ -121,7 +121,7 @@ def evaluate_many(
     design : Design, optional
         Those of Chapter 4 unless given.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     effort : Effort

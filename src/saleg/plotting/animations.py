@@ -28,8 +28,12 @@ class Animation:
     ----------
     run : Run
     window : (float, float) or None
+        Begin and end of the time shown [s].
     frames : int
-    width, rate : float
+    width : float
+        Width [inch].
+    rate : float
+        Frames shown per second [1/s].
     """
 
     run: Run
@@ -106,7 +110,7 @@ def animation(
     width : float
         Width [inch], 4 to 16, of 80 dots each.
     rate : float
-        Frames shown per second, 1 to 60.
+        Frames shown per second [1/s], 1 to 60.
 
     Returns
     -------

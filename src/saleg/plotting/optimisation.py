@@ -251,7 +251,12 @@ def engine(found: Found, ax: Axes | None = None) -> ShownAxes:
 
 
 class OptimisationPlots(Namespace):
-    """Figures of an optimisation: ``found.plot.convergence()`` and so on; ``dir`` lists them."""
+    """Figures of an optimisation: ``found.plot.convergence()`` and so on; ``dir`` lists them.
+
+    Parameters
+    ----------
+    result : Found
+    """
 
     _kind = "an optimisation"
 

@@ -65,7 +65,7 @@ def run(
     chunk : int
         Points sent to a worker at a time.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     warm : bool
