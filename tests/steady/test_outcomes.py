@@ -199,6 +199,7 @@ def test_a_motored_engine_runs(base):
     assert (row.status, row.stable, row.kind) == ("steady", False, "")
 
 
+@pytest.mark.filterwarnings("ignore:unusual for an engine")
 def test_an_engine_that_lives_on_the_heat_of_its_walls_is_steady(base):
     """It was "stalled" with 900 W: it never fires, but what it delivers comes from the walls."""
     hot = base.replace(wall_temperature=2500.0, equivalence_ratio=0.0)
