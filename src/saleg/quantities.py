@@ -178,11 +178,11 @@ class Limits(NamedTuple):
         allowed = str(self)
         return " ".join(f"must be {kind or (not allowed) * 'a finite number'} {allowed}".split())
 
-    def admits(self, value: float) -> bool:
-        """Whether a finite number lies in the range."""
-        over = value > self.low or (value == self.low and not self.open_low)
-        under = value < self.high or (value == self.high and not self.open_high)
-        return over and under
+    def admits(self, value: Any) -> Any:
+        """Whether a finite number, or each of an array, lies in the range."""
+        over = (value > self.low) | ((value == self.low) & (not self.open_low))
+        under = (value < self.high) | ((value == self.high) & (not self.open_high))
+        return over & under
 
 
 def _checked_unit(unit: Any) -> str:

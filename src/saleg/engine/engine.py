@@ -295,6 +295,16 @@ def _kind_problem(value: Any, kind: type, path: str) -> list[Problem]:
     return [Problem(path, value, "-", f"must be a {kind.__name__}")]
 
 
+def lengths_fit(engine: Engine) -> Any:
+    """Whether no lengths contradict each other; of an engine of columns, in each row."""
+    most = engine.left.half_stroke + engine.right.half_stroke
+    fit = True
+    for chamber in engine.chambers:
+        gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
+        fit = fit & (gap < chamber.half_stroke) & (gap < port) & (port < most)
+    return fit
+
+
 def _geometry_problems(engine: Engine) -> list[Problem]:
     """Lengths that contradict each other."""
     found = []

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.kernel.control import NEAREST
+from saleg.laws.columns import Column
 
 if TYPE_CHECKING:
     from saleg.laws import HeatRelease
@@ -18,6 +21,16 @@ if TYPE_CHECKING:
 ADVERSE_POINTS = 2001
 #: Cycles whose changes of the compression ratio, each against the one before, are averaged.
 CR_CYCLES = 10
+
+
+def total(values: np.ndarray) -> Any:
+    """Sum over the strokes of a run, or of each of many."""
+    return values.sum(axis=-1)
+
+
+def total_of_sides(values: np.ndarray) -> Any:
+    """Sum over sides and strokes of a run, or of each of many."""
+    return total(values[..., 0] + values[..., 1])
 
 
 class Timing(NamedTuple):
@@ -33,28 +46,44 @@ class Timing(NamedTuple):
         Time after dead centre at which half of the heat is released [s], negative before it.
     """
 
-    start: float
-    start_position: float
-    centre: float
+    start: Any
+    start_position: Any
+    centre: Any
 
 
 def timing(engine: Engine, strokes: np.ndarray) -> Timing:
-    """Combustion timing over the strokes of a cycle; NaN without combustion."""
-    found = []
-    for row, (side, chamber) in itertools.product(strokes, enumerate(engine.chambers)):
-        if row["ignition_time"][side] < 0.0 or not isinstance(chamber, CombustionChamber):
-            continue
-        sign = 1.0 if side == 0 else -1.0
+    """Combustion timing over the strokes of a cycle, or of each of many; NaN without combustion."""
+    count, sums = 0.0, np.zeros((3, *strokes.shape[:-1]))
+    sides = [
+        (side, 1.0 - 2.0 * side, chamber, half_burnt_of(chamber.heat_release))
+        for side, chamber in enumerate(engine.chambers)
+        if isinstance(chamber, CombustionChamber)
+    ]
+    for n, (side, sign, chamber, half) in itertools.product(range(2), sides):
+        row = strokes[..., n]
+        ignition = row["ignition_time"][..., side]
         # What is lit at a dead centre, or after it, is lit in the stroke that leaves it.
-        leaves = sign * float(row["direction"]) > 0.0
-        dead_centre = float(row["t"]) - (float(row["duration"]) if leaves else 0.0)
-        before = dead_centre - float(row["ignition_time"][side])
-        height = chamber.half_stroke + sign * float(row["x_start" if leaves else "x_end"])
-        half = half_burnt(chamber.heat_release) * float(row["combustion_duration"][side])
-        found.append((before, float(row["ignition_height"][side]) - height, half - before))
-    if not found:
-        return Timing(math.nan, math.nan, math.nan)
-    return Timing(*(float(value) for value in np.mean(found, axis=0)))
+        leaves = sign * row["direction"] > 0.0
+        dead_centre = row["t"] - np.where(leaves, row["duration"], 0.0)
+        before = dead_centre - ignition
+        height = chamber.half_stroke + sign * np.where(leaves, row["x_start"], row["x_end"])
+        centre = half * row["combustion_duration"][..., side] - before
+        fired = ignition >= 0.0
+        found = before, row["ignition_height"][..., side] - height, centre
+        sums += np.where(fired, np.array(found), 0.0)
+        count = count + fired
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return Timing(*(sums / count))
+
+
+def half_burnt_of(law: HeatRelease) -> Any:
+    """The same as :func:`half_burnt`, of a law of columns row by row."""
+    columns = {name: value for name, value in vars(law).items() if isinstance(value, Column)}
+    if not columns:
+        return half_burnt(law)
+    numbers = zip(*(values.tolist() for values in columns.values()), strict=True)
+    one = lru_cache(None)(lambda row: half_burnt(replace(law, **dict(zip(columns, row)))))
+    return np.array([one(row) for row in numbers])
 
 
 def half_burnt(law: HeatRelease) -> float:

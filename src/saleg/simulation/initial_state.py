@@ -18,10 +18,15 @@ from saleg.kernel import layout
 from saleg.kernel.rhs import refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
+from saleg.laws.columns import log, sqrt
 from saleg.simulation.faulty_law import Fault, asked
 
 if TYPE_CHECKING:
     from saleg.engine import Chamber, Engine
+
+
+#: What of the kernel sets up a run.
+kernel_functions = SimpleNamespace(refresh=refresh, ignite=ignite, rhs=rhs)
 
 
 @dataclass
@@ -99,7 +104,29 @@ def _fault_of(engine: Engine) -> str:
 
 
 def _prepare(engine: Engine) -> State:
-    """Fill plain objects, let the kernel's own functions work on them, and pack them at last."""
+    """Numbers a run begins with, packed as the kernel takes them."""
+    E, C, y = initial_numbers(engine, kernel_functions)
+    return State(
+        np.array([tuple(vars(E).values())], layout.ENGINE_RECORD),
+        np.array([tuple(vars(c).values()) for c in C], layout.CHAMBER_RECORD),
+        np.array(y),
+        np.zeros(layout.N_PEAKS),
+    )
+
+
+def initial_numbers(engine: Engine, kernel: Any) -> tuple[Any, list[Any], list[Any]]:
+    """Fill plain objects and let the kernel's own functions work on them.
+
+    Parameters
+    ----------
+    engine : Engine
+    kernel : namespace
+        Functions ``refresh``, ``ignite`` and ``rhs``.
+
+    Returns
+    -------
+    Engine, chambers and state vector.
+    """
     start = engine.start.initial(engine)
     E = SimpleNamespace(**dict.fromkeys(layout.ENGINE_RECORD.names or (), 0.0))
     C = [SimpleNamespace(**dict.fromkeys(layout.CHAMBER_RECORD.names or (), 0.0)) for _ in "lr"]
@@ -109,19 +136,14 @@ def _prepare(engine: Engine) -> State:
         _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
         _fill_contents(C[side], contents, y, side)
     _fill_engine(E, engine, start, C)
-    refresh(engine, E, C, y)
+    kernel.refresh(engine, E, C, y)
     for side, contents in enumerate((start.left, start.right)):
         if contents.burning and contents.fuel > 0.0:
-            ignite(engine, E, C, side, y, 0)
+            kernel.ignite(engine, E, C, side, y, 0)
     dy = [0.0] * layout.N_ALL
-    rhs(engine, E, C, 0.0, y, dy, 0)
+    kernel.rhs(engine, E, C, 0.0, y, dy, 0)
     E.direction = sign(y[layout.V]) or sign(dy[layout.V])
-    return State(
-        np.array([tuple(vars(E).values())], layout.ENGINE_RECORD),
-        np.array([tuple(vars(c).values()) for c in C], layout.CHAMBER_RECORD),
-        np.array(y),
-        np.zeros(layout.N_PEAKS),
-    )
+    return E, C, y
 
 
 def natural_period(engine: Engine) -> float:
@@ -132,14 +154,16 @@ def natural_period(engine: Engine) -> float:
 
 def sign(value: float) -> float:
     """-1, 0 or 1 [-]."""
-    return math.copysign(1.0, value) if value != 0.0 else 0.0
+    if value == 0.0:
+        return 0.0
+    return -1.0 if value < 0.0 else 1.0
 
 
 def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     length = 0.5 * engine.maximum_stroke
     E.mass = engine.translator.mass
     E.length_scale = length
-    E.speed_scale = length * math.sqrt(_stiffness(engine, length) / E.mass)
+    E.speed_scale = length * sqrt(_stiffness(engine, length) / E.mass)
     E.maximum_stroke = engine.maximum_stroke
     E.stroke = start.stroke
     E.mean_piston_speed = start.mean_piston_speed
@@ -205,7 +229,7 @@ def _stiffness(engine: Engine, length: float) -> float:
     for chamber in engine.chambers:
         area = math.pi * chamber.bore**2 / 4.0
         total += 1.35 * chamber.reference_state.pressure * area / chamber.half_stroke
-    return float(total)
+    return total
 
 
 def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
@@ -242,5 +266,5 @@ def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> Non
     if c.curve_exponent > 0.0:  # its charge is closed where it stands
         c.p_closing, c.V_closing = contents.pressure, c.area * clearance
         c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
-    theta = math.log(contents.pressure) + layout.G0 * math.log(clearance / c.half_stroke)
+    theta = log(contents.pressure) + layout.G0 * log(clearance / c.half_stroke)
     y[layout.THETA + side] = y[layout.MOTORED + side] = theta

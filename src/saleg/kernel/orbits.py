@@ -1,0 +1,89 @@
+"""The search for fixed points of the return maps of many engines, one after the other.
+
+All of one choice of laws: what the search works on belongs to one return map, into which the
+numbers of each engine are copied, and out of which its results are.
+"""
+
+from typing import Any, NamedTuple
+
+from saleg.kernel.jit import cached, inline
+from saleg.kernel.layout import N_ALL, N_PEAKS, N_VECTOR
+from saleg.kernel.orbit import find_orbit
+from saleg.kernel.state import copy_row
+
+
+class Orbits(NamedTuple):
+    """Engines whose fixed points are looked for, and what was found; a row per engine.
+
+    Attributes
+    ----------
+    laws : ndarray, shape (n, k)
+        Numbers of the laws.
+    engine : ndarray of ENGINE_RECORD, shape (n,)
+    chambers : ndarray of CHAMBER_RECORD, shape (2 n,)
+    y : ndarray, shape (n, N_ALL)
+        State at the start, and at the end of the search.
+    longest : ndarray, shape (n,)
+        Longest time to the next return [s].
+    codes : ndarray of int, shape (n,)
+        Why the integrator came back.
+    found : ndarray of SEARCH_RECORD, shape (n,)
+    strokes : ndarray of STROKE_RECORD, shape (2 n,)
+        The two strokes of the cycle.
+    point, residual, image : ndarray, shape (n, N_VECTOR)
+        As in :class:`~saleg.kernel.tuples.Iterates` after the search.
+    """
+
+    laws: Any
+    engine: Any
+    chambers: Any
+    y: Any
+    longest: Any
+    codes: Any
+    found: Any
+    strokes: Any
+    point: Any
+    residual: Any
+    image: Any
+
+
+@inline
+def take_up(orbits, row, mapping):
+    """Copy the numbers of an engine into the return map."""
+    run = mapping.integration
+    for n in range(orbits.laws.shape[1]):
+        run.laws[n] = orbits.laws[row, n]
+    copy_row(run.engine, 0, orbits.engine, row)
+    for side in range(2):
+        copy_row(run.chambers, side, orbits.chambers, 2 * row + side)
+    for n in range(N_ALL):
+        run.y[n] = orbits.y[row, n]
+    for n in range(N_PEAKS):
+        run.peaks[n] = 0.0
+    run.options[0].longest = orbits.longest[row]
+
+
+@inline
+def put_down(orbits, row, mapping, iterates):
+    """Copy what has become of an engine out of the return map."""
+    run = mapping.integration
+    copy_row(orbits.engine, row, run.engine, 0)
+    for side in range(2):
+        copy_row(orbits.chambers, 2 * row + side, run.chambers, side)
+        copy_row(orbits.strokes, 2 * row + side, run.tables.strokes, side)
+    for n in range(N_ALL):
+        orbits.y[row, n] = run.y[n]
+    for n in range(N_VECTOR):
+        orbits.point[row, n] = iterates.point[n]
+        orbits.residual[row, n] = iterates.residual[n]
+        orbits.image[row, n] = iterates.image[n]
+
+
+@cached
+def find_orbits(mapping, max_maps, tolerance, iterates, orbits):
+    """Entry point: look for the fixed point of every engine."""
+    for row in range(orbits.codes.shape[0]):
+        take_up(orbits, row, mapping)
+        orbits.codes[row] = find_orbit(mapping, max_maps, tolerance, iterates, orbits.found[row])
+        put_down(orbits, row, mapping, iterates)
+    return 0
