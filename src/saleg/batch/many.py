@@ -8,21 +8,25 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from saleg.batch.table import CHUNK, Row, in_pieces, rows_of, table_of
+from saleg.batch.table import CHUNK, Columns, Row, in_pieces, put_together, rows_of, table_of
 from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine, check_engine
+from saleg.engine.columns import is_usual, rows_by_make
+from saleg.simulation.indicators import closure
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import integrate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
-from saleg.simulation.performance import Performance
+from saleg.simulation.performance import Performance, cycle_figures, is_remarkable, remarks_on
 from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
+from saleg.steady.many import SteadyRows, steady_rows
 from saleg.steady.solver import (
     Effort,
     SteadyState,
     check_effort,
     check_tolerance,
+    fixed_point_message,
     found_steady_state,
 )
 
@@ -105,7 +109,10 @@ def steady_states(
     check_flag("multipliers", multipliers)
     row_of = partial(_steady_row, rtol=rtol, multipliers=multipliers, effort=effort)
     units = STABILITY_UNITS if multipliers else STEADY_UNITS
-    return batch_table(row_of, engines, units, kernel_for, executor, workers, chunk)
+    work = partial(rows_of, row_of)
+    if not multipliers:
+        work = partial(steady_columns, row_of, rtol=rtol, effort=effort)
+    return batch_table(work, engines, units, kernel_for, executor, workers, chunk)
 
 
 def simulate_many(
@@ -135,11 +142,13 @@ def simulate_many(
         One row per engine, in order: status, message and the figures of the last cycle.
     """
     row_of = partial(_run_row, settings=Settings(duration, **settings).checked())
-    return batch_table(row_of, engines, RUN_UNITS, kernel_for, executor, workers, chunk)
+    return batch_table(
+        partial(rows_of, row_of), engines, RUN_UNITS, kernel_for, executor, workers, chunk
+    )
 
 
 def batch_table(
-    row_of: Callable[[T], Row],
+    work: Callable[[Sequence[T]], Columns],
     items: Iterable[T],
     units: Mapping[str, str],
     kernel_of: Callable[[T], Hashable],
@@ -152,7 +161,7 @@ def batch_table(
     if not np.iterable(items):
         raise SettingsError(f"engines = {items!r}: must be a list of engines, or the like")
     parts = in_pieces(
-        partial(rows_of, row_of),
+        work,
         items,
         chunk=chunk,
         executor=executor,
@@ -161,6 +170,48 @@ def batch_table(
         total=len(items) if isinstance(items, Sequence) else None,
     )
     return table_of(dict(parts), units)
+
+
+def steady_columns(
+    row_of: Callable[[Engine], Row], engines: Sequence[Engine], rtol: float, effort: Effort
+) -> Columns:
+    """Rows of steady states: most of them together, the others one by one."""
+    together = [
+        (found.rows.places, _columns_of(found))
+        for rows in rows_by_make(engines)
+        for found in steady_rows(rows, rtol, effort)
+    ]
+    done = {place for places, _ in together for place in places.tolist()}
+    others = [place for place in range(len(engines)) if place not in done]
+    apart = rows_of(row_of, [engines[place] for place in others])
+    return put_together(len(engines), [*together, (np.array(others, int), apart)])
+
+
+def _columns_of(found: SteadyRows) -> Columns:
+    """Columns of steady states."""
+    engine, strokes = found.rows.engine, found.strokes
+    figures = cycle_figures(engine, strokes)
+    figures["stability"] = closure(engine, strokes)
+    pairs = zip(found.half_cycles.tolist(), found.residual.tolist(), strict=True)
+    messages = [fixed_point_message(found.mirrored, *pair) for pair in pairs]
+    odd = ~is_usual(found.rows) | is_remarkable(engine, figures, strokes)
+    for n in np.flatnonzero(odd):
+        one = found.rows.row(n)
+        figures_of_one = Performance.of_cycle(one, strokes[n], strokes[n])
+        remarks = remarks_on(one, figures_of_one, strokes[n])
+        messages[n] = "; ".join([messages[n], *_odd(one, remarks)])
+    columns: Columns = {
+        "status": np.full(len(messages), str(Status.STEADY), dtype=object),
+        "message": np.array(messages, dtype=object),
+    }
+    for name in PERFORMANCE_UNITS:
+        if name not in NOT_IN_ROWS:
+            columns[name] = np.broadcast_to(figures.get(name, np.nan), len(messages))
+    columns["method"] = np.full(len(messages), "fixed point", dtype=object)
+    columns["half_cycles"] = found.half_cycles.astype(float)
+    columns["evaluations"] = found.evaluations
+    columns["residual"] = found.residual
+    return columns
 
 
 def _steady_row(engine: Engine, rtol: float, multipliers: bool, effort: Effort) -> Row:

@@ -40,6 +40,19 @@ def rows_of(row_of: Callable[[T], Row], items: Iterable[T]) -> Columns:
     return {name: _column(name, rows) for name in dict.fromkeys(itertools.chain(*rows))}
 
 
+def put_together(count: int, lots: Sequence[tuple[np.ndarray, Columns]]) -> Columns:
+    """Columns of some rows, given as lots of them and the places of their rows."""
+    names = dict.fromkeys(name for _, columns in lots for name in columns)
+    whole: Columns = {}
+    for name in names:
+        kind = kind_of(name)
+        whole[name] = np.full(count, MISSING[kind], dtype=kind)
+        for places, columns in lots:
+            if name in columns:
+                whole[name][places] = columns[name]
+    return whole
+
+
 def _row_or_reason(row_of: Callable[[T], Row], item: T) -> Row:
     try:
         return row_of(item)

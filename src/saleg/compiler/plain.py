@@ -102,7 +102,7 @@ def plain_kernel(modules: tuple[str, ...]) -> PlainKernel:
 
 @lru_cache(maxsize=1)
 def on_columns() -> SimpleNamespace:
-    """The kernel's functions ``refresh``, ``ignite`` and ``rhs``, which here take columns.
+    """Functions of the kernel, by name, that take columns in the place of numbers.
 
     The same text as everywhere; only the elementary functions are those of
     :mod:`saleg.laws.columns`.
@@ -112,7 +112,7 @@ def on_columns() -> SimpleNamespace:
     for name in COLUMNS:
         exec(compile(own_text(name), name, "exec"), names)
     names |= {name: getattr(columns, name) for name in ("exp", "log", "sin")}
-    return SimpleNamespace(**{name: names[name] for name in ("refresh", "ignite", "rhs")})
+    return SimpleNamespace(**names)
 
 
 def plain_laws(laws: Sequence[Law]) -> list[SimpleNamespace]:

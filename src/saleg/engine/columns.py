@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import copy
 import dataclasses
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from operator import attrgetter
 from typing import Any, NamedTuple
@@ -32,7 +31,7 @@ class Rows(NamedTuple):
 
     def row(self, n: int) -> Engine:
         """Engine of a row."""
-        return changed(self.engine, lambda value: row_of(value, n))
+        return _changed(self.engine, lambda value: row_of(value, n))
 
     @property
     def count(self) -> int:
@@ -41,11 +40,13 @@ class Rows(NamedTuple):
 
     def some(self, chosen: np.ndarray) -> Rows:
         """Some of the rows, by their numbers or by whether they are wanted."""
+        if chosen.dtype == bool and chosen.all():
+            return self
 
         def some_of(value: Any) -> Any:
             return value[chosen] if isinstance(value, Column) else value
 
-        return Rows(changed(self.engine, some_of), self.places[chosen])
+        return Rows(_changed(self.engine, some_of), self.places[chosen])
 
 
 class _Unlike(Exception):
@@ -53,51 +54,70 @@ class _Unlike(Exception):
 
 
 class _Fields(NamedTuple):
-    """Fields of a class: those that hold one number, and the others."""
+    """Fields of a class: those that hold one number, the ranges of some, and all others."""
 
     numbers: tuple[str, ...]
+    limits: tuple[tuple[str, Limits], ...]
     others: tuple[str, ...]
-    read: Callable[[Any], tuple[Any, ...]]
 
 
-def rows_by_make(engines: Sequence[Any]) -> Iterator[Rows]:
+class _Make:
+    """What engines of one make have in common: all but their numbers.
+
+    Parameters
+    ----------
+    engine : Engine
+        One of them.
+    """
+
+    def __init__(self, engine: Engine):
+        numbers: list[str] = []
+        others: list[str] = []
+        _collect(engine, "", _left_out(engine), numbers, others)
+        self._read_numbers, self._read_others = attrgetter(*numbers), attrgetter(*others)
+        self._others = self._read_others(engine)
+        self._types = tuple(map(type, self._others))
+        self._plain = tuple(n for n, x in enumerate(self._others) if not _is_part(x))
+        self._left_out = _left_out(engine)
+        self.engine, self.places, self.numbers = engine, list[int](), list[tuple[float, ...]]()
+
+    def takes(self, engine: Engine, place: int) -> bool:
+        """Take an engine that is of this make; whether it is."""
+        try:
+            others = self._read_others(engine)
+        except AttributeError:
+            return False
+        if tuple(map(type, others)) != self._types or _left_out(engine) != self._left_out:
+            return False
+        if any(others[n] != self._others[n] for n in self._plain):
+            return False
+        numbers = self._read_numbers(engine)
+        if set(map(type, numbers)) == {float}:
+            self.places.append(place)
+            self.numbers.append(numbers)
+        return True
+
+    def rows(self) -> Rows:
+        """All engines taken, as one of columns."""
+        columns = map(column, np.array(self.numbers).T)
+        return Rows(_changed(self.engine, lambda _: next(columns)), np.array(self.places))
+
+
+def rows_by_make(engines: Sequence[Any]) -> list[Rows]:
     """Engines in lots of one make: alike in all but their numbers.
 
     What is no engine, or one with something that is no number where a number should be, is in none
     of them.
     """
-    lots: dict[Any, tuple[list[int], list[list[float]]]] = {}
+    makes: list[_Make] = []
     for place, engine in enumerate(engines):
-        numbers: list[Any] = []
         try:
-            make = _read(engine, numbers) if isinstance(engine, Engine) else None
-            if make is not None and set(map(type, numbers)) <= {float}:
-                places, rows = lots.setdefault(make, ([], []))
-                places.append(place)
-                rows.append(numbers)
-        except (_Unlike, TypeError):  # unhashable, for one
+            if isinstance(engine, Engine) and not any(m.takes(engine, place) for m in makes):
+                makes.append(_Make(engine))
+                makes[-1].takes(engine, place)
+        except Exception:  # numpy arrays and the like: whoever solves it by itself will say
             continue
-    for places, rows in lots.values():
-        columns = map(column, np.array(rows).T)
-        yield Rows(_written(engines[places[0]], columns), np.array(places))
-
-
-def changed(engine: Engine, change: Callable[[Any], Any]) -> Engine:
-    """Copy of an engine with all its numbers changed; chambers that are one stay one."""
-
-    def copied(node: Any) -> Any:
-        twin = copy.copy(node)
-        fields = _fields_of(type(node))
-        held = vars(twin)
-        held.update((name, change(held[name])) for name in fields.numbers)
-        held.update((name, copied(part)) for name, part in _parts(node, fields))
-        return twin
-
-    mirrored = engine.left is engine.right
-    twin = copied(dataclasses.replace(engine, right=engine.left) if mirrored else engine)
-    if mirrored:
-        vars(twin)["right"] = twin.left
-    return twin
+    return [make.rows() for make in makes if make.places]
 
 
 def is_sound(rows: Rows) -> np.ndarray:
@@ -106,62 +126,80 @@ def is_sound(rows: Rows) -> np.ndarray:
     Kinds of parts, and series of numbers, are the same in all rows: of them any row says enough.
     """
     sound = np.full(rows.count, True) & lengths_fit(rows.engine)
-    for limits, value in _quantities(rows.engine):
-        sound &= np.isfinite(value) & limits.admits(value)
-    return sound
+    for value, limits in _quantities(rows.engine):
+        sound &= limits.admits(value) & (abs(value) < np.inf)
+    return np.asarray(sound)
 
 
 def is_usual(rows: Rows) -> np.ndarray:
     """Whether nothing in each row is far from what has been built."""
     usual = np.full(rows.count, True)
-    for limits, value in _quantities(rows.engine):
+    for value, limits in _quantities(rows.engine):
         if limits.usual:
             low, high = limits.usual
             usual &= (value == 0.0) | ((low <= value) & (value <= high))
     return usual
 
 
-def _quantities(node: Any) -> Iterator[tuple[Limits, Any]]:
-    """All numbers of a tree that have a range."""
-    fields = _fields_of(type(node))
-    for item in dataclasses.fields(node):
-        if item.name in fields.numbers and "limits" in item.metadata:
-            yield item.metadata["limits"], getattr(node, item.name)
-    for _, part in _parts(node, fields):
-        yield from _quantities(part)
+def _changed(engine: Engine, change: Callable[[Any], Any]) -> Engine:
+    """Copy of an engine with all its numbers changed; chambers that are one stay one.
 
+    The numbers are met in the order in which a make reads them.
+    """
+    twins: dict[int, Any] = {}
+    left_out = _left_out(engine)
 
-def _read(node: Any, numbers: list[Any]) -> Any:
-    """Class of a node and of all below it, with all that is no number; collects the numbers."""
-    fields = _fields_of(type(node))
-    numbers.extend(fields.read(node))
-    names = fields.others
-    if isinstance(node, Engine):
-        left_out = ("name", "right") if node.is_mirrored else ("name",)
-        names = tuple(name for name in names if name not in left_out)
-    others = (getattr(node, name) for name in names)
-    return type(node), names, *(_read(x, numbers) if dataclasses.is_dataclass(x) else x for x in others)
+    def copied(node: Any) -> Any:
+        if id(node) in twins:
+            return twins[id(node)]
+        twin = twins[id(node)] = object.__new__(type(node))
+        held, fields = vars(twin), _fields_of(type(node))
+        held.update(vars(node))
+        held.update((name, change(held[name])) for name in fields.numbers)
+        for name in fields.others:
+            if _is_part(held[name]) and not (node is engine and name in left_out):
+                held[name] = copied(held[name])
+        return twin
 
-
-def _written(node: Any, columns: Iterator[Any]) -> Any:
-    """Copy of a node with columns in the place of its numbers, in the order they are read."""
-    twin = copy.copy(node)
-    fields = _fields_of(type(node))
-    held = vars(twin)
-    held.update((name, next(columns)) for name in fields.numbers)
-    mirrored = isinstance(node, Engine) and node.is_mirrored
-    for name, part in _parts(node, fields):
-        if not (mirrored and name == "right"):
-            held[name] = _written(part, columns)
-    if mirrored:
-        held["right"] = held["left"]
+    twin = copied(engine)
+    if "right" in left_out:
+        vars(twin)["right"] = twin.left
     return twin
 
 
-def _parts(node: Any, fields: _Fields) -> Iterable[tuple[str, Any]]:
-    """Parts of a node by name."""
-    others = ((name, getattr(node, name)) for name in fields.others)
-    return [(name, part) for name, part in others if dataclasses.is_dataclass(part)]
+def _collect(
+    node: Any, path: str, left_out: tuple[str, ...], numbers: list[str], others: list[str]
+) -> None:
+    """Collect the dotted names of all numbers of a tree, and of all else."""
+    fields = _fields_of(type(node))
+    numbers += [path + name for name in fields.numbers]
+    for name in fields.others:
+        if name not in left_out:
+            others.append(path + name)
+            if _is_part(getattr(node, name)):
+                _collect(getattr(node, name), f"{path}{name}.", (), numbers, others)
+
+
+def _left_out(engine: Engine) -> tuple[str, ...]:
+    """What of an engine is not its own: its name, and a right chamber that is like the left."""
+    alike = engine.right is engine.left or engine.is_mirrored
+    return ("name", "right") if alike else ("name",)
+
+
+def _quantities(node: Any) -> Iterator[tuple[Any, Limits]]:
+    """All numbers of a tree that have a range; those of a mirrored engine's chambers once."""
+    fields = _fields_of(type(node))
+    held = vars(node)
+    for name, limits in fields.limits:
+        yield held[name], limits
+    left = held.get("left")
+    for name in fields.others:
+        if _is_part(held[name]) and not (name == "right" and held[name] is left):
+            yield from _quantities(held[name])
+
+
+def _is_part(value: Any) -> bool:
+    return hasattr(value, "__dataclass_fields__")
 
 
 @lru_cache(maxsize=256)
@@ -172,17 +210,12 @@ def _fields_of(kind: Any) -> _Fields:
     """
     if getattr(kind, "__post_init__", None) not in (None, Quantities.__post_init__):
         raise _Unlike(kind)
-    numbers, others = [], []
+    numbers, ranges, others = [], [], []
     for item in dataclasses.fields(kind):
         limits = item.metadata.get("limits")
         plain = limits is not None and limits.kind is float and "series" not in item.metadata
         own = limits is None and hasattr(kind, "compiled")  # a law's record holds numbers
         (numbers if plain or own else others).append(item.name)
-    return _Fields(tuple(numbers), tuple(others), _reader(tuple(numbers)))
-
-
-def _reader(names: tuple[str, ...]) -> Callable[[Any], tuple[Any, ...]]:
-    """What takes some attributes of an object as a tuple."""
-    if len(names) > 1:
-        return attrgetter(*names)
-    return lambda node: tuple(getattr(node, name) for name in names)
+        if plain:
+            ranges.append((item.name, limits))
+    return _Fields(tuple(numbers), tuple(ranges), tuple(others))

@@ -18,6 +18,7 @@ from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine, SalegWarning
 from saleg.laws import Law, LinearLoad, LinearSprings, ViscousFriction
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
+from saleg.laws.columns import least_of
 from saleg.laws.contract import check_laws
 from saleg.quantities import Problem, is_number, problems, unusual
 
@@ -123,9 +124,9 @@ class Engine:
         left, right = self.left.half_stroke, self.right.half_stroke
         burns = [isinstance(chamber, CombustionChamber) for chamber in self.chambers]
         if burns == [True, False]:
-            return left + min(left, right)
+            return left + least_of(left, right)
         if burns == [False, True]:
-            return min(left, right) + right
+            return least_of(left, right) + right
         return left + right
 
     def get(self, path: str) -> Any:

@@ -35,12 +35,10 @@ class Column(np.ndarray):
     """A number per row, float64 of shape (n,); any size of one row stands for all."""
 
     def __bool__(self) -> bool:
-        answers = np.asarray(self) != 0.0
-        if answers.all():
-            return True
-        if answers.any():
-            raise Differs(answers)
-        return False
+        count = np.count_nonzero(self)
+        if 0 < count < len(self):
+            raise Differs(np.asarray(self) != 0.0)
+        return bool(count > 0)
 
     def __float__(self) -> float:
         raise TypeError("a column is no single number")
@@ -122,3 +120,8 @@ sin = _elementwise(math.sin, 1)
 def sqrt(x: Any) -> Any:
     """Square root, correctly rounded by numpy and Python alike."""
     return np.sqrt(x) if isinstance(x, Column) else math.sqrt(x)
+
+
+def least_of(a: Any, b: Any) -> Any:
+    """The lesser of two numbers, in each row."""
+    return np.minimum(a, b) if isinstance(a, Column) or isinstance(b, Column) else min(a, b)

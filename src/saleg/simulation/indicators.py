@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import replace
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -81,9 +80,10 @@ def half_burnt_of(law: HeatRelease) -> Any:
     columns = {name: value for name, value in vars(law).items() if isinstance(value, Column)}
     if not columns:
         return half_burnt(law)
-    numbers = zip(*(values.tolist() for values in columns.values()), strict=True)
-    one = lru_cache(None)(lambda row: half_burnt(replace(law, **dict(zip(columns, row)))))
-    return np.array([one(row) for row in numbers])
+    rows = list(zip(*(values.tolist() for values in columns.values()), strict=True))
+    laws = {row: replace(law, **dict(zip(columns, row, strict=True))) for row in rows}
+    halves = {row: half_burnt(one) for row, one in laws.items()}
+    return np.array([halves[row] for row in rows])
 
 
 def half_burnt(law: HeatRelease) -> float:
@@ -230,6 +230,12 @@ def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
     return greatest / least
 
 
+def closure(engine: Engine, cycle: np.ndarray) -> Any:
+    """Change of the left dead centre over a cycle, or each of many, in half strokes (Eq. 68)."""
+    change = np.abs(cycle["x_end"][..., -1] - cycle["x_start"][..., -2])
+    return change / (0.5 * engine.maximum_stroke)
+
+
 def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:
     """Repeatability of the last cycle: change against those before it, as the thesis measures it.
 
@@ -247,7 +253,6 @@ def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:
         Mean magnitude of the change of the compression ratio from cycle to cycle, over the last
         ten changes [-]; NaN for a single cycle.
     """
-    half = 0.5 * engine.maximum_stroke
-    stability = abs(float(strokes["x_end"][-1] - strokes["x_start"][-2])) / half
+    stability = float(closure(engine, strokes[-2:]))
     changes = np.abs(np.diff(cycle_compression_ratios(engine, strokes)))[-CR_CYCLES:]
     return stability, float(changes.mean()) if len(changes) else math.nan

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,19 +33,25 @@ class States(NamedTuple):
     chambers: np.ndarray
     y: np.ndarray
 
+    def some(self, chosen: np.ndarray) -> States:
+        """Copies of the states of some rows."""
+        return States(self.engine[chosen], self.chambers[chosen], self.y[chosen])
+
     def row(self, n: int) -> State:
         """Copy of the state of a row."""
         parts = self.engine[n : n + 1].copy(), self.chambers[n].copy(), self.y[n].copy()
         return State(*parts, np.zeros(layout.N_PEAKS))
 
 
-def prepare_rows(rows: Rows) -> tuple[States, np.ndarray]:
+def prepare_rows(rows: Rows, begun: Callable[[Engine], Engine]) -> tuple[States, np.ndarray]:
     """States of engines at the beginning of their runs, equal to :func:`.initial_state.prepare`.
 
     Parameters
     ----------
     rows : Rows
         Valid engines, whose laws have been checked.
+    begun : callable
+        Gives an engine, one or many, the start to begin with.
 
     Returns
     -------
@@ -63,7 +70,9 @@ def prepare_rows(rows: Rows) -> tuple[States, np.ndarray]:
     if n >= WORTH_IT and _is_ours(rows.engine):
         kernel = plain.on_columns()
         lots = by_branch(
-            lambda lot: initial_numbers(rows.some(lot).engine, kernel), np.arange(n), WORTH_IT
+            lambda lot: initial_numbers(begun(rows.some(lot).engine), kernel),
+            np.arange(n),
+            WORTH_IT,
         )
         for lot, numbers in lots:
             if numbers is not None:
@@ -71,7 +80,7 @@ def prepare_rows(rows: Rows) -> tuple[States, np.ndarray]:
         one_by_one = [lot for lot, numbers in lots if numbers is None]
     for k in (k for lot in one_by_one for k in lot):
         try:
-            state = prepare(rows.row(k))
+            state = prepare(begun(rows.row(k)))
         except SalegError:
             ready[k] = False
             continue

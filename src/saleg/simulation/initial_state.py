@@ -15,7 +15,7 @@ from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.engine.start import Contents
 from saleg.errors import LawError, SalegError, StartError
 from saleg.kernel import layout
-from saleg.kernel.rhs import refresh, rhs
+from saleg.kernel.rhs import gas_of, rates_of_motion, refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.columns import log, sqrt
@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 
 
 #: What of the kernel sets up a run.
-kernel_functions = SimpleNamespace(refresh=refresh, ignite=ignite, rhs=rhs)
+KERNEL = SimpleNamespace(
+    refresh=refresh, ignite=ignite, gas_of=gas_of, rates_of_motion=rates_of_motion
+)
 
 
 @dataclass
@@ -105,7 +107,8 @@ def _fault_of(engine: Engine) -> str:
 
 def _prepare(engine: Engine) -> State:
     """Numbers a run begins with, packed as the kernel takes them."""
-    E, C, y = initial_numbers(engine, kernel_functions)
+    E, C, y = initial_numbers(engine, KERNEL)
+    rhs(engine, E, C, 0.0, y, [0.0] * layout.N_ALL, 0)  # asks all laws, so that one may fail here
     return State(
         np.array([tuple(vars(E).values())], layout.ENGINE_RECORD),
         np.array([tuple(vars(c).values()) for c in C], layout.CHAMBER_RECORD),
@@ -121,7 +124,7 @@ def initial_numbers(engine: Engine, kernel: Any) -> tuple[Any, list[Any], list[A
     ----------
     engine : Engine
     kernel : namespace
-        Functions ``refresh``, ``ignite`` and ``rhs``.
+        Its functions, as in :data:`KERNEL`.
 
     Returns
     -------
@@ -140,10 +143,20 @@ def initial_numbers(engine: Engine, kernel: Any) -> tuple[Any, list[Any], list[A
     for side, contents in enumerate((start.left, start.right)):
         if contents.burning and contents.fuel > 0.0:
             kernel.ignite(engine, E, C, side, y, 0)
-    dy = [0.0] * layout.N_ALL
-    kernel.rhs(engine, E, C, 0.0, y, dy, 0)
-    E.direction = sign(y[layout.V]) or sign(dy[layout.V])
+    E.direction = sign(y[layout.V]) or sign(_acceleration(engine, E, C, y, kernel))
     return E, C, y
+
+
+def _acceleration(engine: Engine, E: Any, C: list[Any], y: list[Any], kernel: Any) -> Any:
+    """Acceleration of the translator [m/s^2]."""
+    gas_force = 0.0
+    for side, c in enumerate(C):
+        is_open = c.mode == layout.OPEN
+        p = c.intake_pressure if is_open else kernel.gas_of(E, C, side, y, 0).p
+        gas_force = gas_force + c.sign * c.area * p
+    dy = [0.0] * layout.N_ALL
+    kernel.rates_of_motion(engine, E, 0.0, y, dy, gas_force)
+    return dy[layout.V]
 
 
 def natural_period(engine: Engine) -> float:

@@ -266,7 +266,11 @@ def remarks_on(engine: Engine, performance: Performance, strokes: np.ndarray) ->
     list of str
         Empty for most engines, and where the figures are not known.
     """
-    return [text(value) for beyond, value, text in _remarks(engine, vars(performance), strokes) if beyond]
+    return [
+        text(value)
+        for beyond, value, text in _remarks(engine, vars(performance), strokes)
+        if beyond
+    ]
 
 
 def is_remarkable(engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray) -> Any:

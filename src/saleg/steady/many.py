@@ -1,0 +1,190 @@
+"""Steady states of many engines of one make: one search after the other in compiled code.
+
+What the first start of :func:`saleg.steady_state` leads to is found, judged and turned into figures
+for all engines at once. An engine it leads nowhere, or to anything but a steady state, is left to
+that function, which tries all other ways.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from saleg.compiler.compiled_engine import check_methods, numbers_of_rows
+from saleg.engine import BounceChamber, Engine
+from saleg.engine.columns import Rows, is_sound
+from saleg.errors import SalegError
+from saleg.kernel import layout
+from saleg.kernel.orbits import Orbits
+from saleg.laws import NoHeatTransfer
+from saleg.simulation.initial_rows import States, prepare_rows
+from saleg.simulation.outcome import imbalance, is_dead, is_idling
+from saleg.steady.return_map import (
+    LONGEST,
+    ReturnMap,
+    has_laws_that_mirror,
+    is_adiabatic,
+    is_symmetric,
+    repeats_itself,
+    strokes_per_map,
+)
+from saleg.steady.sealed_gas import rise_of_theta
+from saleg.steady.slow_states import NEAR, are_near, are_sharp, free_entries
+from saleg.steady.solver import (
+    MAX_MAPS,
+    MAX_MISSED,
+    MIRROR_MISSED,
+    QUICK_MAPS,
+    QUICK_STEPS,
+    RESIDUAL,
+    THOROUGH_STEPS,
+    Effort,
+    max_imbalance,
+    starts,
+)
+
+
+class SteadyRows(NamedTuple):
+    """Steady states of engines of one make.
+
+    Attributes
+    ----------
+    rows : Rows
+        The engines.
+    mirrored : bool
+        Whether they were found as fixed points of the half-cycle map.
+    strokes : ndarray of STROKE_RECORD, shape (n, 2)
+        The cycle of each, from its left dead centre.
+    half_cycles : ndarray of int, shape (n,)
+    evaluations, residual : ndarray, shape (n,)
+        As in :class:`saleg.SteadyState`.
+    """
+
+    rows: Rows
+    mirrored: bool
+    strokes: np.ndarray
+    half_cycles: np.ndarray
+    evaluations: np.ndarray
+    residual: np.ndarray
+
+
+def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[SteadyRows]:
+    """Those of some engines that have a steady state where the first start leads.
+
+    Parameters
+    ----------
+    rows : Rows
+        Engines of one make, valid or not.
+    rtol : float
+        Tolerance of the integrator.
+    effort : Effort
+
+    Returns
+    -------
+    list of SteadyRows
+        Symmetric engines apart from those that are not.
+    """
+    rows = rows.some(is_sound(rows))
+    if not rows.count or not _can_be_searched(rows.row(0)):
+        return []
+    symmetric = _are_symmetric(rows)
+    found = []
+    for mirrored in (True, False):
+        lot = rows.some(symmetric == mirrored)
+        if lot.count:
+            found.append(_searched(lot, mirrored, rtol, effort))
+    return found
+
+
+def _can_be_searched(engine: Engine) -> bool:
+    """Whether engines of this make have a return map and laws that can be compiled."""
+    try:
+        engine.validate()
+        engine.check_laws()
+        check_methods(engine.laws.values())
+        return repeats_itself(engine)
+    except SalegError:
+        return False
+
+
+def _are_symmetric(rows: Rows) -> np.ndarray:
+    """Whether each engine is its own mirror image."""
+    if not rows.engine.is_mirrored or has_laws_that_mirror(rows.engine):
+        return np.full(rows.count, is_symmetric(rows.engine))
+    return np.array([is_symmetric(rows.row(n)) for n in range(rows.count)])
+
+
+def _from_first_start(engine: Engine) -> Engine:
+    """The engine with the start its search begins with."""
+    return replace(engine, start=next(starts(engine)))
+
+
+def _searched(rows: Rows, mirrored: bool, rtol: float, effort: Effort) -> SteadyRows:
+    """Search from the first start, and what of it is a steady state."""
+    begin, ready = prepare_rows(rows, _from_first_start)
+    rows, begin = rows.some(ready), begin.some(ready)
+    quick = effort is Effort.QUICK
+    states = begin.some(np.arange(rows.count))
+    most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
+    return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, most_steps)
+    orbits = _room(rows, states)
+    return_map.find_each(QUICK_MAPS if quick else MAX_MAPS, RESIDUAL * rtol, orbits)
+    strokes = orbits.strokes.reshape(-1, 2)
+    good = orbits.codes == layout.END_OF_TIME
+    good &= states.engine["direction"] > 0.0
+    good &= orbits.found["missed"] <= (MIRROR_MISSED if mirrored else MAX_MISSED) * rtol
+    good &= are_near(orbits, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
+    off = imbalance(strokes[:, 1], strokes)
+    good &= are_sharp(orbits.found["slowness"], off, rtol) & (off <= max_imbalance(rtol))
+    good &= ~(is_dead(rows.engine, strokes) | is_idling(rows.engine, strokes))
+    _leave_out_changed_entropies(good, rows, begin, states, NEAR * RESIDUAL * rtol)
+    maps = orbits.found["maps"][good] * strokes_per_map(mirrored)
+    return SteadyRows(
+        rows=rows.some(good),
+        mirrored=mirrored,
+        strokes=strokes[good],
+        half_cycles=maps.astype(int) + 2,
+        evaluations=states.engine["evaluations"][good],
+        residual=orbits.found["missed"][good],
+    )
+
+
+def _room(rows: Rows, states: States) -> Orbits:
+    """Engines and their states as the compiled search takes them, with room for what it finds."""
+    n, E = rows.count, states.engine
+    vectors = np.zeros((3, n, layout.N_VECTOR))
+    return Orbits(
+        laws=numbers_of_rows(rows.engine, n),
+        engine=E,
+        chambers=states.chambers.reshape(2 * n),
+        y=states.y,
+        longest=LONGEST * E["length_scale"] / E["speed_scale"],
+        codes=np.zeros(n, np.int64),
+        found=np.zeros(n, layout.SEARCH_RECORD),
+        strokes=np.zeros(2 * n, layout.STROKE_RECORD),
+        point=vectors[0],
+        residual=vectors[1],
+        image=vectors[2],
+    )
+
+
+def _leave_out_changed_entropies(
+    good: np.ndarray, rows: Rows, begin: States, end: States, tolerance: float
+) -> None:
+    """Leave out engines whose sealed adiabatic chambers have another entropy than they began with.
+
+    Which chambers are adiabatic may depend on the numbers of their law.
+    """
+    for side, chamber in enumerate(rows.engine.chambers):
+        if not isinstance(chamber, BounceChamber):
+            continue
+        always = isinstance(chamber.heat_transfer, NoHeatTransfer)
+        for n in np.flatnonzero(good):
+            gas = rows.row(n).chambers[side]
+            if not always and is_adiabatic(gas):
+                good[n] = False
+            elif always:
+                rise = rise_of_theta(gas.gas_properties, begin.row(n), end.row(n), side)
+                good[n] = abs(rise) <= tolerance
