@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -12,7 +13,7 @@ from saleg.batch.table import CHUNK, Columns, Row, in_pieces, put_together, rows
 from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine, check_engine
-from saleg.engine.columns import is_usual, rows_by_make
+from saleg.engine.columns import Rows, is_usual, rows_by_make
 from saleg.simulation.indicators import closure
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import integrate
@@ -26,7 +27,6 @@ from saleg.steady.solver import (
     SteadyState,
     check_effort,
     check_tolerance,
-    fixed_point_message,
     found_steady_state,
 )
 
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
     from saleg.simulation.run import Run
 
+#: Steady states solved together, from which on it makes no difference.
+MOST_TOGETHER = 128
 #: Figures that need the whole history of a cycle; a batch leaves them out.
 NOT_IN_ROWS = ("adverse_work",)
 
@@ -67,7 +69,7 @@ def steady_states(
     effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
 ) -> pd.DataFrame:
     """Steady states of many engines.
 
@@ -86,8 +88,9 @@ def steady_states(
         Who does the work; threads of this process unless given.
     workers : int, optional
         Threads; as many as there are processors unless given.
-    chunk : int
-        Engines sent at a time.
+    chunk : int, optional
+        Engines sent at a time; 128 unless given, which are solved together, but fewer of a list
+        that would not keep all workers busy.
 
     Returns
     -------
@@ -107,12 +110,24 @@ def steady_states(
     rtol = check_tolerance(rtol)
     check_effort(effort)
     check_flag("multipliers", multipliers)
-    row_of = partial(_steady_row, rtol=rtol, multipliers=multipliers, effort=effort)
-    units = STABILITY_UNITS if multipliers else STEADY_UNITS
-    work = partial(rows_of, row_of)
-    if not multipliers:
-        work = partial(steady_columns, row_of, rtol=rtol, effort=effort)
+    check_workers(executor, workers)
+    work: Callable[[Sequence[Engine]], Columns]
+    if multipliers:
+        row_of = partial(_steady_row, rtol=rtol, multipliers=True, effort=effort)
+        work, units = partial(rows_of, row_of), STABILITY_UNITS
+    else:
+        work, units = partial(_steady_piece, rtol=rtol, effort=effort), STEADY_UNITS
+    if chunk is None:
+        chunk = _suitable_chunk(engines, workers)
     return batch_table(work, engines, units, kernel_for, executor, workers, chunk)
+
+
+def _suitable_chunk(engines: Iterable[Engine], workers: int | None) -> int:
+    """Engines to send at a time: two pieces or more for each worker, if the engines are counted."""
+    if not isinstance(engines, Sequence):
+        return MOST_TOGETHER
+    pieces = 2 * (workers or os.cpu_count() or 1)
+    return min(max(-(-len(engines) // pieces), CHUNK), MOST_TOGETHER)
 
 
 def simulate_many(
@@ -173,45 +188,67 @@ def batch_table(
 
 
 def steady_columns(
-    row_of: Callable[[Engine], Row], engines: Sequence[Engine], rtol: float, effort: Effort
+    lots: Iterable[Rows], row_of: Callable[[int], Row], count: int, rtol: float, effort: Effort
 ) -> Columns:
-    """Rows of steady states: most of them together, the others one by one."""
+    """Columns of steady states: of most engines together, of the others one by one.
+
+    Parameters
+    ----------
+    lots : iterable of Rows
+        Those among the engines that may be solved together.
+    row_of : callable
+        Row of the engine in a place, solved by itself.
+    count : int
+        Number of engines.
+    rtol : float
+        Tolerance of the integrator.
+    effort : Effort
+    """
     together = [
         (found.rows.places, _columns_of(found))
-        for rows in rows_by_make(engines)
+        for rows in lots
         for found in steady_rows(rows, rtol, effort)
     ]
-    done = {place for places, _ in together for place in places.tolist()}
-    others = [place for place in range(len(engines)) if place not in done]
-    apart = rows_of(row_of, [engines[place] for place in others])
-    return put_together(len(engines), [*together, (np.array(others, int), apart)])
+    alone = np.full(count, True)
+    for places, _ in together:
+        alone[places] = False
+    others = np.flatnonzero(alone)
+    return put_together(count, [*together, (others, rows_of(row_of, others.tolist()))])
+
+
+def _steady_piece(engines: Sequence[Engine], rtol: float, effort: Effort) -> Columns:
+    """Columns of steady states of some engines."""
+
+    def row_of(place: int) -> Row:
+        return _steady_row(engines[place], rtol, False, effort)
+
+    return steady_columns(rows_by_make(engines), row_of, len(engines), rtol, effort)
 
 
 def _columns_of(found: SteadyRows) -> Columns:
     """Columns of steady states."""
-    engine, strokes = found.rows.engine, found.strokes
+    engine, strokes, count = found.rows.engine, found.strokes, len(found.status)
     figures = cycle_figures(engine, strokes)
     figures["stability"] = closure(engine, strokes)
-    pairs = zip(found.half_cycles.tolist(), found.residual.tolist(), strict=True)
-    messages = [fixed_point_message(found.mirrored, *pair) for pair in pairs]
+    message = found.message.copy()
     odd = ~is_usual(found.rows) | is_remarkable(engine, figures, strokes)
-    for n in np.flatnonzero(odd):
+    for n in np.flatnonzero(odd).tolist():
         one = found.rows.row(n)
-        figures_of_one = Performance.of_cycle(one, strokes[n], strokes[n])
-        remarks = remarks_on(one, figures_of_one, strokes[n])
-        messages[n] = "; ".join([messages[n], *_odd(one, remarks)])
-    columns: Columns = {
-        "status": np.full(len(messages), str(Status.STEADY), dtype=object),
-        "message": np.array(messages, dtype=object),
+        remarks = remarks_on(one, Performance.of_cycle(one, strokes[n], strokes[n]), strokes[n])
+        message[n] = "; ".join([message[n], *_odd(one, remarks)])
+    return {
+        "status": np.array([str(status) for status in found.status], dtype=object),
+        "message": message,
+        **{
+            name: np.broadcast_to(figures.get(name, np.nan), count)
+            for name in PERFORMANCE_UNITS
+            if name not in NOT_IN_ROWS
+        },
+        "method": np.full(count, "fixed point", dtype=object),
+        "half_cycles": found.half_cycles.astype(float),
+        "evaluations": found.evaluations,
+        "residual": found.residual,
     }
-    for name in PERFORMANCE_UNITS:
-        if name not in NOT_IN_ROWS:
-            columns[name] = np.broadcast_to(figures.get(name, np.nan), len(messages))
-    columns["method"] = np.full(len(messages), "fixed point", dtype=object)
-    columns["half_cycles"] = found.half_cycles.astype(float)
-    columns["evaluations"] = found.evaluations
-    columns["residual"] = found.residual
-    return columns
 
 
 def _steady_row(engine: Engine, rtol: float, multipliers: bool, effort: Effort) -> Row:

@@ -17,7 +17,17 @@ if TYPE_CHECKING:
 
 #: Values of the inputs of a point (SI), by name.
 Values = Mapping[str, float]
-Solver = Callable[[Values], Row]
+
+
+class Solver(Protocol):
+    """Makes rows of points; may remember the point before.
+
+    One that has a method ``columns``, which takes a list of points and gives their rows column by
+    column, is asked for all points of a piece at once.
+    """
+
+    def __call__(self, values: Values) -> Row:
+        """Row of a point."""
 
 
 class Evaluated(Protocol):
@@ -126,7 +136,9 @@ def _values(points: pd.DataFrame) -> Iterator[Values]:
 
 def _rows(solver: Callable[[], Solver], points: Iterable[Values]) -> Columns:
     """Rows of a piece; each piece begins without memory."""
-    return rows_of(solver(), points)
+    fresh = solver()
+    columns = getattr(fresh, "columns", None)
+    return rows_of(fresh, points) if columns is None else columns(points)
 
 
 def _check(points: pd.DataFrame, evaluated: Evaluated) -> None:

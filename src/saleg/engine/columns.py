@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
-from operator import attrgetter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import lru_cache, reduce
+from operator import and_, attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,8 @@ from saleg.laws.columns import Column, column, row_of
 from saleg.quantities import Limits, Quantities
 
 
-class Rows(NamedTuple):
+@dataclasses.dataclass(frozen=True, eq=False)
+class Rows:
     """Engines of one make as one engine.
 
     Attributes
@@ -29,14 +30,14 @@ class Rows(NamedTuple):
     engine: Engine
     places: np.ndarray
 
-    def row(self, n: int) -> Engine:
-        """Engine of a row."""
-        return _changed(self.engine, lambda value: row_of(value, n))
-
     @property
     def count(self) -> int:
         """Number of rows."""
         return len(self.places)
+
+    def row(self, n: int) -> Engine:
+        """Engine of a row."""
+        return _changed(self.engine, lambda value: row_of(value, n))
 
     def some(self, chosen: np.ndarray) -> Rows:
         """Some of the rows, by their numbers or by whether they are wanted."""
@@ -120,6 +121,42 @@ def rows_by_make(engines: Sequence[Any]) -> list[Rows]:
     return [make.rows() for make in makes if make.places]
 
 
+def rows_of_columns(engine: Engine, values: Mapping[str, np.ndarray]) -> list[Rows]:
+    """Engines that are one with some numbers replaced: those with chambers alike, and the others.
+
+    Parameters
+    ----------
+    engine : Engine
+    values : mapping of str to ndarray, shape (n,)
+        Numbers of each (SI) by dotted path, as for :meth:`.Engine.replace`.
+
+    Returns
+    -------
+    list of Rows
+        None where a part of a user's does something of its own with its numbers.
+    """
+    count = len(next(iter(values.values())))
+    try:
+        _Make(engine)
+        whole = engine.replace(**{path: column(numbers) for path, numbers in values.items()})
+    except Exception:  # whoever solves them one by one will say
+        return []
+    alike = np.full(count, _alike(whole.left, whole.right))
+    mirrored = Rows(dataclasses.replace(whole, right=whole.left), np.arange(count)).some(alike)
+    other = Rows(whole, np.arange(count)).some(~alike)
+    return [rows for rows in (mirrored, other) if rows.count]
+
+
+def _alike(one: Any, other: Any) -> Any:
+    """Whether two parts are equal; of columns, in each row."""
+    if one is other or not _is_part(one):
+        return (one is other) | (one == other)
+    if type(one) is not type(other):
+        return False
+    names = (item.name for item in dataclasses.fields(one))
+    return reduce(and_, (_alike(getattr(one, n), getattr(other, n)) for n in names))
+
+
 def is_sound(rows: Rows) -> np.ndarray:
     """Whether the numbers of each row lie in their ranges and their lengths fit together.
 
@@ -146,14 +183,11 @@ def _changed(engine: Engine, change: Callable[[Any], Any]) -> Engine:
 
     The numbers are met in the order in which a make reads them.
     """
-    twins: dict[int, Any] = {}
     left_out = _left_out(engine)
 
     def copied(node: Any) -> Any:
-        if id(node) in twins:
-            return twins[id(node)]
-        twin = twins[id(node)] = object.__new__(type(node))
-        held, fields = vars(twin), _fields_of(type(node))
+        twin = object.__new__(type(node))
+        held, fields = vars(twin), _fields(node)
         held.update(vars(node))
         held.update((name, change(held[name])) for name in fields.numbers)
         for name in fields.others:
@@ -171,7 +205,7 @@ def _collect(
     node: Any, path: str, left_out: tuple[str, ...], numbers: list[str], others: list[str]
 ) -> None:
     """Collect the dotted names of all numbers of a tree, and of all else."""
-    fields = _fields_of(type(node))
+    fields = _fields(node)
     numbers += [path + name for name in fields.numbers]
     for name in fields.others:
         if name not in left_out:
@@ -188,7 +222,7 @@ def _left_out(engine: Engine) -> tuple[str, ...]:
 
 def _quantities(node: Any) -> Iterator[tuple[Any, Limits]]:
     """All numbers of a tree that have a range; those of a mirrored engine's chambers once."""
-    fields = _fields_of(type(node))
+    fields = _fields(node)
     held = vars(node)
     for name, limits in fields.limits:
         yield held[name], limits
@@ -202,6 +236,11 @@ def _is_part(value: Any) -> bool:
     return hasattr(value, "__dataclass_fields__")
 
 
+def _fields(node: Any) -> _Fields:
+    kind: Any = type(node)
+    return _fields_of(kind)
+
+
 @lru_cache(maxsize=256)
 def _fields_of(kind: Any) -> _Fields:
     """Fields of a class of nodes.
@@ -210,12 +249,14 @@ def _fields_of(kind: Any) -> _Fields:
     """
     if getattr(kind, "__post_init__", None) not in (None, Quantities.__post_init__):
         raise _Unlike(kind)
-    numbers, ranges, others = [], [], []
+    numbers: list[str] = []
+    ranges: list[tuple[str, Limits]] = []
+    others: list[str] = []
     for item in dataclasses.fields(kind):
         limits = item.metadata.get("limits")
         plain = limits is not None and limits.kind is float and "series" not in item.metadata
         own = limits is None and hasattr(kind, "compiled")  # a law's record holds numbers
         (numbers if plain or own else others).append(item.name)
-        if plain:
+        if limits is not None and plain:
             ranges.append((item.name, limits))
     return _Fields(tuple(numbers), tuple(ranges), tuple(others))

@@ -6,10 +6,17 @@ numbers of each engine are copied, and out of which its results are.
 
 from typing import Any, NamedTuple
 
-from saleg.kernel.jit import cached, inline
-from saleg.kernel.layout import N_ALL, N_PEAKS, N_VECTOR
-from saleg.kernel.orbit import find_orbit
-from saleg.kernel.state import copy_row
+from saleg.kernel.jit import cached, compiled, inline
+from saleg.kernel.layout import END_OF_TIME, N_ALL, N_PEAKS, N_VECTOR
+from saleg.kernel.orbit import (
+    cycle_from,
+    find_orbit,
+    mirror,
+    next_return,
+    read_vector,
+    write_vector,
+)
+from saleg.kernel.state import begin_stroke, copy_row
 
 
 class Orbits(NamedTuple):
@@ -28,8 +35,11 @@ class Orbits(NamedTuple):
     codes : ndarray of int, shape (n,)
         Why the integrator came back.
     found : ndarray of SEARCH_RECORD, shape (n,)
+        How the search went.
+    spare : ndarray of SEARCH_RECORD, shape (1,)
+        How what comes after it went.
     strokes : ndarray of STROKE_RECORD, shape (2 n,)
-        The two strokes of the cycle.
+        The two strokes of the cycle, from its left dead centre.
     point, residual, image : ndarray, shape (n, N_VECTOR)
         As in :class:`~saleg.kernel.tuples.Iterates` after the search.
     """
@@ -41,6 +51,7 @@ class Orbits(NamedTuple):
     longest: Any
     codes: Any
     found: Any
+    spare: Any
     strokes: Any
     point: Any
     residual: Any
@@ -70,7 +81,6 @@ def put_down(orbits, row, mapping, iterates):
     copy_row(orbits.engine, row, run.engine, 0)
     for side in range(2):
         copy_row(orbits.chambers, 2 * row + side, run.chambers, side)
-        copy_row(orbits.strokes, 2 * row + side, run.tables.strokes, side)
     for n in range(N_ALL):
         orbits.y[row, n] = run.y[n]
     for n in range(N_VECTOR):
@@ -79,11 +89,31 @@ def put_down(orbits, row, mapping, iterates):
         orbits.image[row, n] = iterates.image[n]
 
 
+@compiled
+def begin_on_the_left(mapping, iterates, found):
+    """Take the cycle just recorded from its left dead centre, half a cycle on."""
+    run = mapping.integration
+    E, C, y = run.engine[0], run.chambers, run.y
+    write_vector(E, C, y, iterates.point)
+    read_vector(E, C, y, iterates.point)
+    begin_stroke(E, C, y, run.peaks)
+    next_return(mapping, True)
+    mirror(E, C, y, mapping.spare_chamber)
+    write_vector(E, C, y, iterates.point)
+    cycle_from(mapping, iterates, found)
+
+
 @cached
 def find_orbits(mapping, max_maps, tolerance, iterates, orbits):
     """Entry point: look for the fixed point of every engine."""
+    run = mapping.integration
     for row in range(orbits.codes.shape[0]):
         take_up(orbits, row, mapping)
-        orbits.codes[row] = find_orbit(mapping, max_maps, tolerance, iterates, orbits.found[row])
+        code = find_orbit(mapping, max_maps, tolerance, iterates, orbits.found[row])
+        orbits.codes[row] = code
         put_down(orbits, row, mapping, iterates)
+        if code == END_OF_TIME and run.engine[0].direction <= 0.0:
+            begin_on_the_left(mapping, iterates, orbits.spare[0])
+        for stroke in range(2):
+            copy_row(orbits.strokes, 2 * row + stroke, run.tables.strokes, stroke)
     return 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -22,14 +21,24 @@ ADVERSE_POINTS = 2001
 CR_CYCLES = 10
 
 
-def total(values: np.ndarray) -> Any:
-    """Sum over the strokes of a run, or of each of many."""
-    return values.sum(axis=-1)
+def summed(strokes: np.ndarray) -> Any:
+    """Every quantity of some strokes, summed over them; over those of each of many runs.
+
+    Parameters
+    ----------
+    strokes : ndarray of STROKE_RECORD, shape (k,) or (n, k)
+
+    Returns
+    -------
+    ndarray of STROKE_RECORD, shape () or (n,)
+    """
+    numbers = strokes.view(np.float64).reshape(*strokes.shape, -1)
+    return numbers.sum(axis=-2).view(strokes.dtype)[..., 0]
 
 
-def total_of_sides(values: np.ndarray) -> Any:
-    """Sum over sides and strokes of a run, or of each of many."""
-    return total(values[..., 0] + values[..., 1])
+def both(values: np.ndarray) -> Any:
+    """Sum of the values of both sides."""
+    return values[..., 0] + values[..., 1]
 
 
 class Timing(NamedTuple):
@@ -52,30 +61,37 @@ class Timing(NamedTuple):
 
 def timing(engine: Engine, strokes: np.ndarray) -> Timing:
     """Combustion timing over the strokes of a cycle, or of each of many; NaN without combustion."""
-    count, sums = 0.0, np.zeros((3, *strokes.shape[:-1]))
-    sides = [
-        (side, 1.0 - 2.0 * side, chamber, half_burnt_of(chamber.heat_release))
-        for side, chamber in enumerate(engine.chambers)
-        if isinstance(chamber, CombustionChamber)
-    ]
-    for n, (side, sign, chamber, half) in itertools.product(range(2), sides):
-        row = strokes[..., n]
-        ignition = row["ignition_time"][..., side]
+    count = np.zeros(strokes.shape[:-1])
+    sums = np.zeros((3, *strokes.shape[:-1]))
+    burns = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
+    laws: list[Any] = [getattr(chamber, "heat_release", None) for chamber in engine.chambers]
+    halves = {id(law): half_burnt_of(law) for law in laws if law is not None}
+    for side, chamber in enumerate(engine.chambers):
+        if not burns[side]:
+            continue
+        sign = 1.0 - 2.0 * side
+        ignition = strokes["ignition_time"][..., side]
         # What is lit at a dead centre, or after it, is lit in the stroke that leaves it.
-        leaves = sign * row["direction"] > 0.0
-        dead_centre = row["t"] - np.where(leaves, row["duration"], 0.0)
+        leaves = sign * strokes["direction"] > 0.0
+        dead_centre = strokes["t"] - np.where(leaves, strokes["duration"], 0.0)
         before = dead_centre - ignition
-        height = chamber.half_stroke + sign * np.where(leaves, row["x_start"], row["x_end"])
-        centre = half * row["combustion_duration"][..., side] - before
+        end = sign * np.where(leaves, strokes["x_start"], strokes["x_end"])
+        position = strokes["ignition_height"][..., side] - (of_strokes(chamber.half_stroke) + end)
+        half = of_strokes(halves[id(laws[side])])
+        centre = half * strokes["combustion_duration"][..., side] - before
         fired = ignition >= 0.0
-        found = before, row["ignition_height"][..., side] - height, centre
-        sums += np.where(fired, np.array(found), 0.0)
-        count = count + fired
+        sums += np.where(fired, (before, position, centre), 0.0).sum(axis=-1)
+        count += fired.sum(axis=-1)
     with np.errstate(divide="ignore", invalid="ignore"):
         return Timing(*(sums / count))
 
 
-def half_burnt_of(law: HeatRelease) -> Any:
+def of_strokes(value: Any) -> Any:
+    """A number of an engine, or of each of many, beside the numbers of strokes."""
+    return np.asarray(value)[:, None] if np.ndim(value) else value
+
+
+def half_burnt_of(law: Any) -> Any:
     """The same as :func:`half_burnt`, of a law of columns row by row."""
     columns = {name: value for name, value in vars(law).items() if isinstance(value, Column)}
     if not columns:

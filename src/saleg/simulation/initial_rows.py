@@ -78,7 +78,7 @@ def prepare_rows(rows: Rows, begun: Callable[[Engine], Engine]) -> tuple[States,
             if numbers is not None:
                 _write(states, lot, *numbers)
         one_by_one = [lot for lot, numbers in lots if numbers is None]
-    for k in (k for lot in one_by_one for k in lot):
+    for k in (k for lot in one_by_one for k in lot.tolist()):
         try:
             state = prepare(begun(rows.row(k)))
         except SalegError:
@@ -90,13 +90,14 @@ def prepare_rows(rows: Rows, begun: Callable[[Engine], Engine]) -> tuple[States,
 
 def _write(states: States, lot: np.ndarray, E: Any, C: list[Any], y: list[Any]) -> None:
     """Write columns of numbers into the rows of a lot."""
+    where = slice(None) if len(lot) == len(states.y) else lot
     for name, values in vars(E).items():
-        states.engine[name][lot] = values
+        states.engine[name][where] = values
     for side, chamber in enumerate(C):
         for name, values in vars(chamber).items():
-            states.chambers[name][lot, side] = values
+            states.chambers[name][where, side] = values
     for n, values in enumerate(y):
-        states.y[lot, n] = values
+        states.y[where, n] = values
 
 
 def _is_ours(engine: Engine) -> bool:

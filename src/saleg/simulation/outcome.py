@@ -10,7 +10,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.simulation.faulty_law import fault_near
-from saleg.simulation.indicators import total, total_of_sides
+from saleg.simulation.indicators import both, summed
 from saleg.simulation.initial_state import State
 from saleg.simulation.performance import EnergyBalance
 from saleg.status import Status
@@ -109,8 +109,7 @@ def imbalance(before: Any, strokes: np.ndarray) -> Any:
     moved = np.abs(strokes["gas_work"]).max(axis=(-2, -1))
     held = np.abs(strokes["spring_energy"]).max(axis=-1)
     largest = np.maximum(balance.largest_term, np.maximum(moved, held))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(largest > 0.0, np.abs(balance.residual) / largest, 0.0)[()]
+    return abs(balance.residual) / np.maximum(largest, 1e-300)
 
 
 _STALL_HINT = "try a smaller load, more fuel, or another start"
@@ -142,16 +141,17 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
 
 def is_dead(engine: Engine, cycle: np.ndarray) -> Any:
     """Whether an engine with cylinders neither fires in a cycle nor is motored; each of many."""
-    driven = total(cycle["alternator_work"]) < 0.0
-    heat = total_of_sides(cycle["heat_released"])
+    all_of = summed(cycle)
+    driven, heat = all_of["alternator_work"] < 0.0, both(all_of["heat_released"])
     work = np.abs(cycle["gas_work"]).max(axis=(-2, -1))
     return engine.has_combustion & ~driven & ~(heat > REMNANT * work)
 
 
 def is_idling(engine: Engine, cycle: np.ndarray) -> Any:
     """Whether an engine fires in a cycle but delivers no power; each of many."""
-    heat = total_of_sides(cycle["heat_released"])
-    return (heat > 0.0) & ~(total(cycle["electrical_energy"]) > 1e-9 * heat)
+    all_of = summed(cycle)
+    heat = both(all_of["heat_released"])
+    return (heat > 0.0) & ~(all_of["electrical_energy"] > 1e-9 * heat)
 
 
 def settled(engine: Engine, strokes: np.ndarray) -> tuple[bool, str]:

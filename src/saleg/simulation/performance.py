@@ -14,11 +14,11 @@ import numpy as np
 from saleg.engine import CombustionChamber, Engine
 from saleg.simulation.indicators import (
     adverse_work,
+    both,
     compression_ratio,
     repeatability,
+    summed,
     timing,
-    total,
-    total_of_sides,
 )
 
 nan = math.nan
@@ -190,26 +190,25 @@ def cycle_figures(engine: Engine, strokes: np.ndarray) -> dict[str, Any]:
     dict
         All of :class:`Performance` but the adverse work and what is told of cycles before.
     """
-    period = total(strokes["duration"])
-    energy = total(strokes["electrical_energy"])
-    fuel = total_of_sides(strokes["fresh_fuel_energy"])
-    work = total_of_sides(strokes["gas_work"])
+    cycle = summed(strokes)
+    period, energy = cycle["duration"], cycle["electrical_energy"]
+    fuel, work = both(cycle["fresh_fuel_energy"]), both(cycle["gas_work"])
     starts, ends = strokes["x_start"], strokes["x_end"]
-    low = np.minimum(starts.min(axis=-1), ends.min(axis=-1))
-    high = np.maximum(starts.max(axis=-1), ends.max(axis=-1))
+    low = np.minimum(starts, ends).min(axis=-1)
+    high = np.maximum(starts, ends).max(axis=-1)
     burns = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
     counted = burns if any(burns) else [True, True]
     masses = strokes["charge_mass"][..., 1, burns] if any(burns) else np.array([nan])
     burn = timing(engine, strokes)
     with np.errstate(all="ignore"):
         return {
-            "stroke": total(np.abs(ends - starts)) / 2.0,
+            "stroke": np.abs(ends - starts).sum(axis=-1) / 2.0,
             "compression_ratio": compression_ratio(engine, low, high),
             "frequency": 1.0 / period,
             "power": energy / period,
-            "rms_power": np.sqrt(np.maximum(total(strokes["electrical_squared"]), 0.0) / period),
+            "rms_power": np.sqrt(np.maximum(cycle["electrical_squared"], 0.0) / period),
             "efficiency": _share(energy / period * period, fuel),
-            "mean_alternator_force": total(strokes["alternator_impulse"]) / period,
+            "mean_alternator_force": cycle["alternator_impulse"] / period,
             "peak_pressure": _greatest(strokes["peak_pressure"][..., counted]),
             "peak_acceleration": strokes["peak_acceleration"].max(axis=-1),
             "peak_velocity": strokes["peak_velocity"].max(axis=-1),
@@ -293,8 +292,8 @@ def _remarks(
     yield ratio > MAX_COMPRESSION_RATIO, ratio, _of_ratio
     speed = 2.0 * figures["stroke"] * figures["frequency"]
     yield speed > MAX_PISTON_SPEED, speed, _of_speed
-    released = strokes["heat_released"].sum(axis=(-2, -1))
-    gained = -strokes["heat_lost"].sum(axis=(-2, -1))
+    cycle = summed(strokes)
+    released, gained = both(cycle["heat_released"]), -both(cycle["heat_lost"])
     yield (gained > released) & (released > 0.0), gained, _of_walls
 
 
@@ -367,9 +366,8 @@ class EnergyBalance:
     @property
     def largest_term(self) -> float:
         """Magnitude of the largest term of the balance [J]."""
-        terms = (self.released, self.heat_transfer, self.exhaust, self.port_work)
-        terms = (*terms, self.friction, self.alternator, self.stored)
-        return reduce(np.maximum, map(abs, terms))
+        gas = (self.released, self.heat_transfer, self.exhaust, self.port_work)
+        return reduce(np.maximum, map(abs, (*gas, self.friction, self.alternator, self.stored)))
 
     @property
     def alternator_loss(self) -> float:
@@ -382,28 +380,27 @@ class EnergyBalance:
 
         Of many runs each term is an array: rows of shape (n,) before strokes of shape (n, k).
         """
-        last = strokes[..., -1]
+        last, all_of = strokes[..., -1], summed(strokes)
         held_before, held_after = (
-            row["spring_energy"] + row["internal_energy"].sum(axis=-1) for row in (before, last)
+            row["spring_energy"] + both(row["internal_energy"]) for row in (before, last)
         )
         terms = {
-            "released": total_of_sides(strokes["heat_released"]),
-            "heat_transfer": total_of_sides(strokes["heat_lost"]),
-            "exhaust": total_of_sides(strokes["exhaust_energy"]),
-            "port_work": total_of_sides(strokes["port_work"]),
-            "friction": total(strokes["friction_work"]),
-            "alternator": total(strokes["alternator_work"]),
+            "released": both(all_of["heat_released"]),
+            "heat_transfer": both(all_of["heat_lost"]),
+            "exhaust": both(all_of["exhaust_energy"]),
+            "port_work": both(all_of["port_work"]),
+            "friction": all_of["friction_work"],
+            "alternator": all_of["alternator_work"],
             "stored": held_after - held_before,
         }
         gains = terms["released"] + terms["port_work"]
         uses = sum(
             terms[name] for name in ("heat_transfer", "exhaust", "friction", "alternator", "stored")
         )
-        terms["fuel"] = total_of_sides(strokes["fresh_fuel_energy"])
-        terms["unburnt"] = total_of_sides(strokes["exhaust_fuel_energy"])
-        terms["electrical"] = total(strokes["electrical_energy"])
-        held_fuel = last["fuel_energy"].sum(axis=-1) - before["fuel_energy"].sum(axis=-1)
-        terms["stored_fuel"] = held_fuel
+        terms["fuel"] = both(all_of["fresh_fuel_energy"])
+        terms["unburnt"] = both(all_of["exhaust_fuel_energy"])
+        terms["electrical"] = all_of["electrical_energy"]
+        terms["stored_fuel"] = both(last["fuel_energy"]) - both(before["fuel_energy"])
         terms["residual"] = gains - uses
         if strokes.ndim == 1:
             terms = {name: float(value) for name, value in terms.items()}

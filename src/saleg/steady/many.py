@@ -1,14 +1,13 @@
 """Steady states of many engines of one make: one search after the other in compiled code.
 
-What the first start of :func:`saleg.steady_state` leads to is found, judged and turned into figures
-for all engines at once. An engine it leads nowhere, or to anything but a steady state, is left to
-that function, which tries all other ways.
+The orbits that the first start of :func:`saleg.steady_state` leads to are judged for all engines at
+once. An engine it leads nowhere is left to that function, which tries all other ways.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,10 +16,12 @@ from saleg.engine import BounceChamber, Engine
 from saleg.engine.columns import Rows, is_sound
 from saleg.errors import SalegError
 from saleg.kernel import layout
+from saleg.kernel.orbit import strokes_per_map
 from saleg.kernel.orbits import Orbits
 from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
+from saleg.status import Status
 from saleg.steady.return_map import (
     LONGEST,
     ReturnMap,
@@ -28,7 +29,6 @@ from saleg.steady.return_map import (
     is_adiabatic,
     is_symmetric,
     repeats_itself,
-    strokes_per_map,
 )
 from saleg.steady.sealed_gas import rise_of_theta
 from saleg.steady.slow_states import NEAR, are_near, are_sharp, free_entries
@@ -41,20 +41,21 @@ from saleg.steady.solver import (
     RESIDUAL,
     THOROUGH_STEPS,
     Effort,
+    fixed_point_message,
+    kind_of,
     max_imbalance,
     starts,
 )
 
 
 class SteadyRows(NamedTuple):
-    """Steady states of engines of one make.
+    """Orbits of engines of one make.
 
     Attributes
     ----------
     rows : Rows
         The engines.
-    mirrored : bool
-        Whether they were found as fixed points of the half-cycle map.
+    status, message : ndarray of object, shape (n,)
     strokes : ndarray of STROKE_RECORD, shape (n, 2)
         The cycle of each, from its left dead centre.
     half_cycles : ndarray of int, shape (n,)
@@ -63,7 +64,8 @@ class SteadyRows(NamedTuple):
     """
 
     rows: Rows
-    mirrored: bool
+    status: np.ndarray
+    message: np.ndarray
     strokes: np.ndarray
     half_cycles: np.ndarray
     evaluations: np.ndarray
@@ -71,7 +73,7 @@ class SteadyRows(NamedTuple):
 
 
 def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[SteadyRows]:
-    """Those of some engines that have a steady state where the first start leads.
+    """Orbits of those among some engines that have one where the first start leads.
 
     Parameters
     ----------
@@ -122,7 +124,7 @@ def _from_first_start(engine: Engine) -> Engine:
 
 
 def _searched(rows: Rows, mirrored: bool, rtol: float, effort: Effort) -> SteadyRows:
-    """Search from the first start, and what of it is a steady state."""
+    """Search from the first start, and the orbits it has found."""
     begin, ready = prepare_rows(rows, _from_first_start)
     rows, begin = rows.some(ready), begin.some(ready)
     quick = effort is Effort.QUICK
@@ -133,22 +135,44 @@ def _searched(rows: Rows, mirrored: bool, rtol: float, effort: Effort) -> Steady
     return_map.find_each(QUICK_MAPS if quick else MAX_MAPS, RESIDUAL * rtol, orbits)
     strokes = orbits.strokes.reshape(-1, 2)
     good = orbits.codes == layout.END_OF_TIME
-    good &= states.engine["direction"] > 0.0
     good &= orbits.found["missed"] <= (MIRROR_MISSED if mirrored else MAX_MISSED) * rtol
     good &= are_near(orbits, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
     off = imbalance(strokes[:, 1], strokes)
-    good &= are_sharp(orbits.found["slowness"], off, rtol) & (off <= max_imbalance(rtol))
-    good &= ~(is_dead(rows.engine, strokes) | is_idling(rows.engine, strokes))
+    good &= are_sharp(orbits.found["slowness"], off, rtol)
     _leave_out_changed_entropies(good, rows, begin, states, NEAR * RESIDUAL * rtol)
     maps = orbits.found["maps"][good] * strokes_per_map(mirrored)
+    rows, strokes, half_cycles = rows.some(good), strokes[good], maps.astype(int) + 2
+    residual = orbits.found["missed"][good]
+    status, message = _verdicts(rows, strokes, half_cycles, residual, mirrored, rtol)
     return SteadyRows(
-        rows=rows.some(good),
-        mirrored=mirrored,
-        strokes=strokes[good],
-        half_cycles=maps.astype(int) + 2,
+        rows=rows,
+        status=status,
+        message=message,
+        strokes=strokes,
+        half_cycles=half_cycles,
         evaluations=states.engine["evaluations"][good],
-        residual=orbits.found["missed"][good],
+        residual=residual,
     )
+
+
+def _verdicts(
+    rows: Rows,
+    strokes: np.ndarray,
+    half_cycles: np.ndarray,
+    residual: np.ndarray,
+    mirrored: bool,
+    rtol: float,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Status and message of each fixed point; most are steady states."""
+    pairs = zip(half_cycles.tolist(), residual.tolist(), strict=True)
+    messages = [fixed_point_message(mirrored, *pair) for pair in pairs]
+    statuses = [Status.STEADY] * len(messages)
+    off = imbalance(strokes[:, 1], strokes) > max_imbalance(rtol)
+    odd = off | is_dead(rows.engine, strokes) | is_idling(rows.engine, strokes)
+    for n in np.flatnonzero(odd).tolist():
+        statuses[n], what = kind_of(rows.row(n), strokes[n], rtol)
+        messages[n] = what + messages[n]
+    return np.array(statuses, dtype=object), np.array(messages, dtype=object)
 
 
 def _room(rows: Rows, states: States) -> Orbits:
@@ -163,6 +187,7 @@ def _room(rows: Rows, states: States) -> Orbits:
         longest=LONGEST * E["length_scale"] / E["speed_scale"],
         codes=np.zeros(n, np.int64),
         found=np.zeros(n, layout.SEARCH_RECORD),
+        spare=np.zeros(1, layout.SEARCH_RECORD),
         strokes=np.zeros(2 * n, layout.STROKE_RECORD),
         point=vectors[0],
         residual=vectors[1],
@@ -181,10 +206,10 @@ def _leave_out_changed_entropies(
         if not isinstance(chamber, BounceChamber):
             continue
         always = isinstance(chamber.heat_transfer, NoHeatTransfer)
-        for n in np.flatnonzero(good):
-            gas = rows.row(n).chambers[side]
-            if not always and is_adiabatic(gas):
-                good[n] = False
-            elif always:
-                rise = rise_of_theta(gas.gas_properties, begin.row(n), end.row(n), side)
+        for n in np.flatnonzero(good).tolist():
+            one: Any = rows.row(n).chambers[side]
+            if always:
+                rise = rise_of_theta(one.gas_properties, begin.row(n), end.row(n), side)
                 good[n] = abs(rise) <= tolerance
+            else:
+                good[n] = not is_adiabatic(one)

@@ -140,7 +140,7 @@ class SteadyState:
         history = None if self.orbit is None else self.orbit.history_rows
         return Performance.of_cycle(self.engine, self.strokes, self.strokes, history)
 
-    @property
+    @cached_property
     def quick_performance(self) -> Performance:
         """The same without what needs the history of the cycle: the adverse work is NaN."""
         if not len(self.strokes):
@@ -381,7 +381,7 @@ def result_of(
     engine, strokes = return_map.engine, return_map.strokes[:2].copy()
     snapshots = Snapshots(*(part.copy() for part in return_map.snapshots))
     settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
-    status, what = _kind(engine, strokes, rtol)
+    status, what = kind_of(engine, strokes, rtol)
     message = what + fixed_point_message(return_map.mirrored, spent, residual)
     return SteadyState(
         engine=engine,
@@ -411,7 +411,7 @@ def max_imbalance(rtol: float) -> float:
     return min(max(ENERGY * rtol, MIN_IMBALANCE), MAX_IMBALANCE)
 
 
-def _kind(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, str]:
+def kind_of(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers, and that as the beginning of a message."""
     off = imbalance(strokes[-1], strokes)
     if off > max_imbalance(rtol):
