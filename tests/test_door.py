@@ -360,11 +360,14 @@ def test_records_cannot_be_written_to(base):
 SLIPS = {
     "bore": (66.0, "0.066 if given in mm"),
     "half_stroke": (100.0, "0.1 if given in mm"),
+    "left.bore": (6.6, "0.0066 if given in mm, 0.066 if given in cm"),
+    "alternator.load_constant": (7e4, "usually 0.01 to 20000"),
     "moving_mass": (2390.0, "2.39 if given in g"),
     "intake.pressure": (1.05, "105000 if given in bar"),
     "intake.temperature": (125.0, "398.15 if given in degC"),
     "fuel.lower_heating_value": (48.0, "4.8e+07 if given in MJ/kg"),
     "spring.stiffness": (30.0, "30000 if given in kN/m"),
+    "springs.stiffness": (2e7, "usually 100 to 1e+07"),
     "heat_release.combustion_duration": (1.25, "0.00125 if given in ms"),
 }
 
@@ -386,6 +389,38 @@ def test_one_warning_for_one_engine(base):
         assert len(caught) == 1
         assert "mass = 2390.0" in str(caught[0].message)
         assert caught[0].filename == __file__
+
+
+def test_the_reference_warns_as_well(base):
+    with pytest.warns(SalegWarning, match=r"mass = 2390\.0"):
+        saleg.reference.simulate(base.replace(moving_mass=2390.0), 1e-4)
+
+
+def test_a_controller_in_other_units_is_warned_of():
+    controller = saleg.Controller(
+        motor_control=saleg.laws.ResonanceSearch(base_frequency=1800.0),
+        load_control=saleg.laws.PowerDemand(times=(0.0, 1.0), demands=(3.8, 1.8)),
+    )
+    with pytest.warns(SalegWarning, match=r"3800 if given in kW") as caught:
+        saleg.control.simulate(saleg.machines.thesis_transient(), controller, 0.001)
+    (warning,) = caught
+    assert "30 if given in 1/min" in str(warning.message)
+
+
+def test_a_target_power_in_kilowatts_is_warned_of():
+    with pytest.warns(SalegWarning, match=r"target_power = 4\.0 \[W\].*4000 if given in kW"):
+        saleg.optimize.thesis_problem(4.0)
+
+
+def test_engines_of_a_tenth_and_five_times_the_size_are_usual(base):
+    for size in (0.1, 5.0):
+        changes = {
+            "bore": size, "half_stroke": size, "port_closing": size, "moving_mass": size**3,
+            "spring.stiffness": size, "alternator.load_constant": size**2,
+            "friction.coefficient": size**2, "heat_release.combustion_duration": size,
+        }  # fmt: skip
+        scaled = base.replace(**{path: base.get(path) * by for path, by in changes.items()})
+        assert scaled.unusual() == []
 
 
 def test_a_table_says_it_in_the_row(base):

@@ -11,7 +11,7 @@ from numbers import Integral, Real
 from typing import Any, NamedTuple
 
 from saleg.errors import Problem as Problem
-from saleg.errors import WrongQuantity
+from saleg.errors import WrongQuantity, shown
 
 
 class Quantities:
@@ -98,6 +98,7 @@ def series(
     ends: tuple[float, float] | None = None,
     at_least: int = 1,
     length: str = "",
+    usual: tuple[float, float] | None = None,
 ) -> Any:
     """Declare a dataclass field that holds some numbers of one unit, as a tuple.
 
@@ -120,6 +121,8 @@ def series(
     length : str
         Name of the fields that say how many numbers there must be: one series, or several
         joined by ``*`` for a table over all their combinations.
+    usual : (float, float), optional
+        Range of what has been built, generously; see :func:`unusual`. 0 is never unusual.
 
     Returns
     -------
@@ -140,7 +143,7 @@ def series(
     >>> str(problems(Profile((0.0, 2.0, 1.0)))[0])
     'x = (0.0, 2.0, 1.0) [m]: every number must be greater than the one before'
     """
-    limits = Limits(_checked_unit(unit), float(low), float(high), False, False)
+    limits = Limits(_checked_unit(unit), float(low), float(high), False, False, usual)
     shape = Shape(rising, never_falling, ends, at_least, length)
     return dataclasses.field(default=default, metadata={"limits": limits, "series": shape})
 
@@ -187,7 +190,7 @@ class Limits(NamedTuple):
 
 def _checked_unit(unit: Any) -> str:
     if not isinstance(unit, str) or not unit.isprintable():
-        raise WrongQuantity(f"unit = {unit!r}: must be one line of text, such as 'N/m'")
+        raise WrongQuantity(f"unit = {shown(unit)}: must be one line of text, such as 'N/m'")
     return unit
 
 
@@ -286,14 +289,19 @@ def problems(node: Any, path: str = "") -> list[Problem]:
             if not (is_number(value) if limits.kind is float else is_whole(value)):
                 wanted = "a number" if limits.kind is float else "a whole number"
                 found.append(Problem(where, value, limits.unit, limits.wanted(wanted)))
-            elif not math.isfinite(value) or not limits.admits(float(value)):
-                need = "" if math.isfinite(value) else "a finite number"
+            elif not _is_finite(value) or not limits.admits(value):
+                need = "" if _is_finite(value) else "a finite number"
                 found.append(Problem(where, value, limits.unit, limits.wanted(need)))
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             found.extend(problems(value, where))
         elif hasattr(node, "compiled") and not is_number(value):  # a law's record holds numbers
             found.append(Problem(where, value, "", "must be a number: a law holds numbers only"))
     return found
+
+
+def _is_finite(value: Any) -> bool:
+    """Whether a number is finite; whole numbers are, however many digits they have."""
+    return isinstance(value, int) or math.isfinite(value)
 
 
 #: Units a number may have been given in by mistake, the likeliest first: factor and offset to SI.
@@ -306,6 +314,8 @@ GIVEN_IN = {
     "N/m": (("kN/m", 1e3, 0.0), ("N/mm", 1e3, 0.0)),
     "J/kg": (("MJ/kg", 1e6, 0.0), ("kJ/kg", 1e3, 0.0)),
     "H": (("mH", 1e-3, 0.0), ("uH", 1e-6, 0.0)),
+    "W": (("kW", 1e3, 0.0), ("MW", 1e6, 0.0)),
+    "Hz": (("1/min", 1.0 / 60.0, 0.0),),
 }
 
 
@@ -330,9 +340,34 @@ def unusual(node: Any, path: str = "") -> list[Problem]:
         value, where = getattr(node, name), f"{path}.{name}" if path else name
         if limits is None:
             found.extend(unusual(value, where) if dataclasses.is_dataclass(value) else ())
-        elif value and not limits.usual[0] <= value <= limits.usual[1]:
-            found.append(Problem(where, value, limits.unit, _usual_text(value, limits)))
+            continue
+        numbers = value if isinstance(value, tuple) else (value,)
+        odd = [number for number in numbers if not is_usual(number, limits)]
+        if odd:
+            found.append(Problem(where, value, limits.unit, _usual_text(odd[0], limits)))
     return found
+
+
+def unusual_number(name: str, value: float, unit: str, usual: tuple[float, float]) -> str:
+    """What is unusual about a number that stands by itself; empty if nothing is.
+
+    Parameters
+    ----------
+    name, unit : str
+    value : float
+    usual : (float, float)
+        Range of what has been built, generously.
+    """
+    limits = Limits(unit, -math.inf, math.inf, False, False, usual)
+    if is_usual(value, limits):
+        return ""
+    return str(Problem(name, value, unit, _usual_text(value, limits)))
+
+
+def is_usual(value: Any, limits: Limits) -> Any:
+    """Whether a number, or each of an array, is usual: 0 is, and any without a usual range."""
+    low, high = limits.usual or (-math.inf, math.inf)
+    return (value == 0.0) | ((low <= value) & (value <= high))
 
 
 @lru_cache(maxsize=1024)
@@ -345,10 +380,12 @@ def _with_usual_range(kind: Any) -> tuple[tuple[str, Any], ...]:
 def _usual_text(value: float, limits: Limits) -> str:
     low, high = limits.usual or (0.0, 0.0)
     text = f"usually {low:g} to {high:g}"
-    for unit, factor, offset in GIVEN_IN.get(limits.unit, ()):
-        if low <= factor * value + offset <= high:
-            return f"{text}; it would be {factor * value + offset:g} if given in {unit}"
-    return text
+    likely = [
+        f"{factor * value + offset:g} if given in {unit}"
+        for unit, factor, offset in GIVEN_IN.get(limits.unit, ())
+        if low <= factor * value + offset <= high
+    ]
+    return f"{text}; it would be {', '.join(likely)}" if likely else text
 
 
 def _series_problems(node: Any, field: dataclasses.Field[Any], where: str) -> list[Problem]:

@@ -169,8 +169,12 @@ def test_another_optimisation_in_the_folder_is_refused(tmp_path):
     (tmp_path / "mine" / "letter.txt").write_text("dear")
     with pytest.raises(SalegError, match=r"no folder of an optimisation: it holds letter.txt"):
         o.optimize(hill(), method, 30, 0, tmp_path / "mine")
-    with open(tmp_path / "one" / "designs.csv", "r+b") as log:
-        log.truncate(100)
+    log = tmp_path / "one" / "designs.csv"
+    text = log.read_text()
+    log.write_text(text.replace("1", "2"))
+    with pytest.raises(SalegError, match=r"designs.csv is damaged: it is not as it was written"):
+        o.optimize(hill(), method, 30, 0, tmp_path / "one")
+    log.write_text(text[:100])
     with pytest.raises(SalegError, match=r"designs.csv is damaged"):
         o.optimize(hill(), method, 30, 0, tmp_path / "one")
 

@@ -14,6 +14,7 @@ from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine, check_engine
 from saleg.engine.columns import Rows, is_usual, rows_by_make
+from saleg.errors import shown
 from saleg.simulation.indicators import closure
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import integrate
@@ -174,7 +175,7 @@ def batch_table(
     """Table with a row per item and a column per unit, whoever does the work."""
     check_workers(executor, workers, chunk)
     if not np.iterable(items):
-        raise SettingsError(f"engines = {items!r}: must be a list of engines, or the like")
+        raise SettingsError(f"engines = {shown(items)}: must be a list of engines, or the like")
     parts = in_pieces(
         work,
         items,

@@ -11,13 +11,14 @@ import numpy as np
 
 from saleg.batch.many import RUN_UNITS, batch_table, run_row
 from saleg.batch.table import CHUNK, Row, rows_of
+from saleg.checks import NUMBER, a, checked
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
 from saleg.control.plant import InPython, Plant, course_of, give
 from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
-from saleg.errors import ControllerError
+from saleg.errors import ControllerError, shown
 from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import ActuatorLaw
@@ -109,9 +110,9 @@ def simulate(
     laws = isinstance(controller, Controller)
     in_python = sensors is not None or sample_time is not None
     if sensors is not None and not isinstance(sensors, Sensors):
-        raise SettingsError(f"sensors = {sensors!r}: must be a saleg.control.Sensors")
+        raise SettingsError(f"sensors = {shown(sensors)}: must be a saleg.control.Sensors")
     if compiled is not None and not isinstance(compiled, (bool, np.bool_)):
-        raise SettingsError(f"compiled = {compiled!r}: must be True, False or None")
+        raise SettingsError(f"compiled = {shown(compiled)}: must be True, False or None")
     if compiled is None:
         compiled = laws and not in_python
     if compiled and (in_python or not laws):
@@ -120,7 +121,7 @@ def simulate(
         raise SettingsError("actuators: a Controller has its own; replace those")
     if compiled and isinstance(controller, Controller):
         run = _compiled(engine, controller, duration, settings)
-        warn_of_unusual(engine)
+        warn_of_unusual(engine, controller)
         return run
     if sample_time is not None:
         sample_time = _checked_sample_time(sample_time, duration)
@@ -142,7 +143,9 @@ def _checked_sample_time(sample_time: float, duration: float) -> float:
     interval, lasts = as_float(sample_time), as_float(duration)
     least = (lasts or 0.0) / MAX_SAMPLES
     if interval is None or not interval >= least or not interval > 0.0:
-        raise SettingsError(f"sample_time = {sample_time!r}: must be a number >= {least:g} [s]")
+        raise SettingsError(
+            f"sample_time = {shown(sample_time)}: must be a number >= {least:g} [s]"
+        )
     return interval
 
 
@@ -191,6 +194,7 @@ def described(error: Exception) -> str:
         return type(error).__name__
 
 
+@checked(signals=a(Signals))
 def generator(signals: Signals, **changes: float) -> Commands:
     """Commands for a generator at rated fuel and intake, loaded as its regulator asks.
 
@@ -218,6 +222,7 @@ def generator(signals: Signals, **changes: float) -> Commands:
     return plain._replace(**changes)
 
 
+@checked(signals=a(Signals), amplitude=NUMBER, frequency=NUMBER)
 def motor(signals: Signals, amplitude: float, frequency: float, **changes: float) -> Commands:
     """Commands for a motor without fuel; its angle goes on from where it is.
 
@@ -307,6 +312,7 @@ def motored_share(run: Run) -> float:
     return float(np.mean(run.strokes["motoring"] > 0.0)) if len(run.strokes) else math.nan
 
 
+@checked(run=a(Run))
 def fired_at(run: Run) -> float:
     """When the motor was first left for fuel and load [s]; NaN if never, or no longer recorded.
 
@@ -322,6 +328,7 @@ def fired_at(run: Run) -> float:
     return float(off[0]) if len(off) else math.nan
 
 
+@checked(run=a(Run))
 def motor_returns(run: Run) -> int:
     """Number of times the motor came back after the engine had been fired.
 

@@ -183,9 +183,11 @@ class Design:
 
     def _place(self, path: str) -> tuple[Any, tuple[str, ...] | None]:
         """Where a path leads in parameters or masses; no chain if it is one of the engine's."""
+        if not isinstance(path, str):
+            raise UnknownPath(f"a path is text, not {type(path).__name__}")
         if path in NAMES:
             return self.parameters, (path,)
-        first, _, rest = str(path).partition(".")
+        first, _, rest = path.partition(".")
         if first == MASSES:
             chain = tuple(rest.split("."))
             if not exists(self.masses, chain):

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.design.designs import Design, InvalidDesign
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
@@ -72,6 +73,7 @@ class Spent(NamedTuple):
     evaluations: int = 0
 
 
+@checked(near=a(DesignedState).optional)
 def solve(
     design: Design,
     *,

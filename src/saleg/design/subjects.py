@@ -19,7 +19,7 @@ from saleg.design.many import EvaluatedDesign
 from saleg.engine import Engine
 from saleg.engine.columns import rows_of_columns
 from saleg.engine.paths import unit_of
-from saleg.errors import SweepError, UnknownPath
+from saleg.errors import SweepError, UnknownPath, shown
 from saleg.steady.solver import Effort, found_steady_state
 
 
@@ -126,7 +126,7 @@ def subject_of(swept: Design | Engine | Subject | None) -> Subject:
         return EngineSubject(swept)
     if isinstance(swept, type) or not callable(getattr(swept, "solver", None)):
         raise SweepError(
-            f"cannot sweep {swept!r}: must be a Design, an Engine, or nothing for the designs of "
-            "Chapter 4"
+            f"cannot sweep {shown(swept)}: must be a Design, an Engine, or nothing for the designs "
+            "of Chapter 4"
         )
     return swept

@@ -310,6 +310,12 @@ class Within(_Curve):
     low: float = quantity("-")
     high: float = quantity("-")
 
+    def __post_init__(self) -> None:
+        """Refuse what is no term, before it is asked for its figure."""
+        if isinstance(self.term, type) or not callable(getattr(self.term, "curve", None)):
+            raise InvalidScore([Problem("term", self.term, "-", "must be a term")])
+        super().__post_init__()
+
     @property
     def figure(self) -> str:  # type: ignore[override]
         """Column of the term."""

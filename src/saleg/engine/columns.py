@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg import quantities
 from saleg.engine.engine import Engine, lengths_fit
 from saleg.laws.columns import Column, column, row_of
 from saleg.quantities import Limits, Quantities
@@ -170,11 +171,11 @@ def is_sound(rows: Rows) -> np.ndarray:
 
 def is_usual(rows: Rows) -> np.ndarray:
     """Whether nothing in each row is far from what has been built."""
-    usual = np.full(rows.count, True)
+    of_series = [problem for problem in rows.row(0).unusual() if isinstance(problem.value, tuple)]
+    usual = np.full(rows.count, not of_series)
     for value, limits in _quantities(rows.engine):
         if limits.usual:
-            low, high = limits.usual
-            usual &= (value == 0.0) | ((low <= value) & (value <= high))
+            usual &= quantities.is_usual(value, limits)
     return usual
 
 

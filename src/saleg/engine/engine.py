@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -256,16 +256,20 @@ def check_engine(engine: Any) -> None:
     engine.validate()
 
 
-def warn_of_unusual(engine: Engine, frames: int = 1) -> None:
+def warn_of_unusual(engine: Engine, controller: Any = None, frames: int = 1) -> None:
     """Warn once of all numbers of a valid engine that are far from what has been built.
 
     Parameters
     ----------
     engine : Engine
+    controller : Controller, optional
+        Who commands it, if that is made of numbers.
     frames : int
         Functions between this one and the user's line, which the warning names.
     """
     found = engine.unusual()
+    if is_dataclass(controller):
+        found += unusual(controller, "controller")
     if found:
         lines = "\n".join(f"  {problem}" for problem in found)
         warnings.warn(f"unusual for an engine:\n{lines}", SalegWarning, stacklevel=2 + frames)

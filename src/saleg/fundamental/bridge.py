@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from saleg.checks import a, checked
 from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.engine.start import standard_charge
 from saleg.errors import InvalidEngine, OutsideModel
 from saleg.fundamental.balance import at_equilibrium
+from saleg.fundamental.checks import SCALAR
 from saleg.fundamental.gas import Isentropic
 from saleg.fundamental.loads import ConstantLoad, Load
 from saleg.fundamental.scales import Scales
@@ -92,6 +94,7 @@ class Groups:
         return frequency / self.scales.frequency
 
 
+@checked(engine=a(Engine), chamber=a(Chamber).optional, gamma=SCALAR.optional)
 def from_engine(
     engine: Engine, chamber: Chamber | None = None, *, gamma: float | None = None
 ) -> Groups:

@@ -6,9 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from saleg.checks import NUMBER, POSITIVE, checked
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator
 from saleg.laws.interpolation import bilinear, next_point
+from saleg.laws.usual import FREQUENCY, LOAD_CONSTANT
 from saleg.quantities import quantity, series
 
 
@@ -58,10 +60,11 @@ class LinearLoad(RegulatedAlternator):
 
     mirrors: ClassVar[bool] = True
 
-    load_constant: float = quantity("N s/m", default=70.0, low=0)
+    load_constant: float = quantity("N s/m", default=70.0, low=0, usual=LOAD_CONSTANT)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
     @classmethod
+    @checked(flux_gradient=NUMBER, load_resistance=POSITIVE, efficiency=POSITIVE)
     def from_circuit(
         cls,
         flux_gradient: float,
@@ -246,7 +249,7 @@ class FluxProfile(RegulatedAlternator):
         See :class:`RegulatedAlternator`.
     """
 
-    load_constant: float = quantity("N s/m", default=70.0, low=0)
+    load_constant: float = quantity("N s/m", default=70.0, low=0, usual=LOAD_CONSTANT)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
     wavelength: float = quantity("m", default=0.05, low=0, open_low=True)
     cosines: tuple[float, ...] = series("-", default=(0.1,))
@@ -346,7 +349,7 @@ class SinusoidalMotor(Alternator):
     """
 
     amplitude: float = quantity("N", default=264.0, low=0)
-    frequency: float = quantity("Hz", default=35.0, low=0)
+    frequency: float = quantity("Hz", default=35.0, low=0, usual=FREQUENCY)
     phase: float = quantity("rad", default=0.0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1, open_low=True)
 

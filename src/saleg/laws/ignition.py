@@ -171,7 +171,7 @@ class SparkAfterDelay(Ignition):
         Time from port closing to the spark [s].
     """
 
-    delay: float = quantity("s", default=7e-3, low=0, open_low=True)
+    delay: float = quantity("s", default=7e-3, low=0, open_low=True, usual=(1e-5, 0.2))
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]."""

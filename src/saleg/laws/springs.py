@@ -9,10 +9,8 @@ from typing import ClassVar
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Springs
 from saleg.laws.interpolation import linear, linear_integral, next_point
+from saleg.laws.usual import STIFFNESS
 from saleg.quantities import quantity, series
-
-#: Stiffness of what has been built [N/m].
-STIFFNESS = 100.0, 1e9
 
 
 @dataclass(frozen=True)
@@ -55,7 +53,7 @@ class ProgressiveSprings(Springs):
 
     deflections: tuple[float, ...] = series("m", default=(0.0, 0.1), low=0, rising=True)
     stiffnesses: tuple[float, ...] = series(
-        "N/m", default=(30e3, 45e3), low=0, length="deflections"
+        "N/m", default=(30e3, 45e3), low=0, length="deflections", usual=STIFFNESS
     )
 
     def force(self, motion: Motion) -> float:

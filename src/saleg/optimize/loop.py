@@ -27,6 +27,8 @@ from saleg.quantities import as_float, is_whole
 if TYPE_CHECKING:
     import pandas as pd
 
+#: Evaluations at most; more would fill the memory, if they ever came to an end.
+MOST_EVALUATIONS = 10_000_000
 #: Columns of a table beside those of its problem.
 MARKS = ("generation", "copied", "verified")
 
@@ -139,8 +141,9 @@ def _wrong(
     else:
         need = f"must be a method, or one of {', '.join(METHODS)}{nearest(method, METHODS)}"
         yield Wrong("method", method, "-", need)
-    if not is_whole(evaluations, 1):
-        yield Wrong("evaluations", evaluations, "-", "must be a whole number >= 1")
+    if not is_whole(evaluations, 1, MOST_EVALUATIONS):
+        need = f"must be a whole number from 1 to {MOST_EVALUATIONS}"
+        yield Wrong("evaluations", evaluations, "-", need)
     if not is_whole(seed, 0):
         yield Wrong("seed", seed, "-", "must be a whole number >= 0")
     if as_float(stop_at) is None or math.isnan(stop_at):

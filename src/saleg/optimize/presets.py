@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,8 +14,11 @@ from saleg.design.score import Score
 from saleg.design.terms import Bell, Below, InvalidScore, Reached, Within
 from saleg.design.weighted import Weighted, WeightedScore
 from saleg.errors import Problem as Wrong
+from saleg.errors import SalegWarning
+from saleg.laws.usual import POWER
 from saleg.optimize.methods import GeneticAlgorithm
 from saleg.optimize.problem import Problem
+from saleg.quantities import unusual_number
 
 Bounds = Mapping[str, tuple[float, float]]
 
@@ -94,8 +98,11 @@ class Preset:
         compression_ratio: tuple[float, float] = (5.0, 35.0),
         bounds: Bounds | None = None,
     ) -> Problem:
-        """Problem in this box."""
+        """Problem in this box; a power far from what has been built is warned of."""
         score = self.score(target_power, compression_ratio)
+        odd = unusual_number("target_power", float(target_power or 0.0), "W", POWER)
+        if odd:
+            warnings.warn(f"unusual for an engine: {odd}", SalegWarning, stacklevel=2)
         return Problem({**self.box, **(bounds or {})}, score)
 
 

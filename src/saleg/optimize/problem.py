@@ -16,6 +16,7 @@ import numpy as np
 from saleg.batch.identity import described
 from saleg.batch.points import Evaluation
 from saleg.batch.table import CHUNK, MISSING, kind_of
+from saleg.checks import as_array
 from saleg.design.designs import Design
 from saleg.design.score import Score
 from saleg.design.subjects import Subject, subject_of
@@ -208,9 +209,11 @@ class Problem:
         """Rows of designs, as :meth:`evaluate` gives them, without units."""
         import pandas as pd
 
-        held = X if isinstance(X, pd.DataFrame) else pd.DataFrame(np.asarray(X))
-        if not isinstance(X, pd.DataFrame) and len(held.columns) == len(self.bounds):
-            held.columns = list(self.bounds)
+        held = X
+        if not isinstance(X, pd.DataFrame):
+            array = as_array(X)
+            if array is not None and array.ndim == 2 and array.shape[1] == len(self.bounds):
+                held = pd.DataFrame(array, columns=list(self.bounds))
         found = list(wrong_designs("X", held, self.bounds))
         if found:
             raise InvalidProblem(found)

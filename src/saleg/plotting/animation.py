@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from saleg.checks import a, checked
 from saleg.files.atomic import new_file
 from saleg.files.reading import as_path
 from saleg.plotting.film import AnimationError, Film
 from saleg.plotting.film_files import WRITERS
 from saleg.quantities import is_number
-
-if TYPE_CHECKING:
-    from saleg.simulation.run import Run
+from saleg.simulation.run import Run
 
 #: Limits of the number of frames, of the width [inch] and of the frames shown per second.
 FRAMES, WIDTHS, RATES = (2, 400), (4.0, 16.0), (1.0, 60.0)
 
 
+@checked(run=a(Run))
 def animate(
     run: Run,
     path: str | Path,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from saleg.errors import AxesError
+from saleg.errors import AxesError, shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -142,7 +142,7 @@ def _checked(ax: Any) -> Any:
 
     if not isinstance(ax, Axes):
         many = isinstance(ax, (np.ndarray, list, tuple))
-        what = f"{len(ax)} in a {type(ax).__name__}" if many else repr(ax)
+        what = f"{len(ax)} in a {type(ax).__name__}" if many else shown(ax)
         raise AxesError(f"ax must be one matplotlib axes here, not {what}")
     return ax
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.errors import SweepError
+from saleg.errors import SweepError, shown
 from saleg.plotting.docstrings import documented
 from saleg.plotting.kinds import UNSTABLE, draw_kind, kinds
 from saleg.plotting.labels import label, values
@@ -192,7 +192,9 @@ def _check(table: pd.DataFrame, names: list[str]) -> None:
     units = table.attrs.get("units", {})
     for name in ["status", *names]:
         if name not in table:
-            raise SweepError(f"no column {name!r} to draw; there are {', '.join(map(str, table))}")
+            raise SweepError(
+                f"no column {shown(name)} to draw; there are {', '.join(map(str, table))}"
+            )
         if name != "status" and table[name].dtype.kind not in "fiu":
             raise SweepError(f"{name} holds no numbers to draw")
         if name not in units:

@@ -120,11 +120,11 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     if len(strokes) < 2:
         return Status.COMPLETED, f"ran to t = {t:.6g} s, less than a cycle; try a longer run"
     cycle = strokes[-2:]
-    if is_dead(engine, cycle):
+    steady, how = settled(engine, strokes)
+    if is_dead(engine, cycle) and not (steady and delivers_power(cycle)):
         fired = np.flatnonzero(strokes["heat_released"].sum(axis=1) > 0.0)
         since = f"since t = {float(strokes['t'][fired[-1]]):.6g} s" if len(fired) else "at all"
         return Status.STALLED, f"ran to t = {t:.6g} s but has not fired {since}; {_STALL_HINT}"
-    steady, how = settled(engine, strokes)
     if is_idling(engine, cycle):
         weight = float(cycle["load_weight"][-1])
         why = (
@@ -145,6 +145,11 @@ def is_dead(engine: Engine, cycle: np.ndarray) -> Any:
     driven, heat = all_of["alternator_work"] < 0.0, both(all_of["heat_released"])
     work = np.abs(cycle["gas_work"]).max(axis=(-2, -1))
     return engine.has_combustion & ~driven & ~(heat > REMNANT * work)
+
+
+def delivers_power(cycle: np.ndarray) -> bool:
+    """Whether a cycle delivers power; one that repeats may live on the heat of its walls."""
+    return float(cycle["electrical_energy"].sum()) > 1e-9 * float(np.abs(cycle["gas_work"]).max())
 
 
 def is_idling(engine: Engine, cycle: np.ndarray) -> Any:

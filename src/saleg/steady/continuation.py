@@ -17,7 +17,7 @@ import numpy as np
 
 from saleg.engine import Engine, check_engine
 from saleg.engine.paths import unit_of
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.orbit import Z_CHAMBERS
 from saleg.quantities import as_float, is_number, is_whole
@@ -220,12 +220,12 @@ def branch(
     check_engine(engine)
     start, end = engine.get(path), as_float(stop)
     if not is_number(start) or end is None or not math.isfinite(end) or end == start:
-        raise NoBranch(f"cannot follow '{path}' from {start!r} to {stop!r}")
+        raise NoBranch(f"cannot follow '{path}' from {shown(start)} to {shown(stop)}")
     longest = abs(end - start) / 40.0 if step is None else as_float(step)
     if longest is None or not 0.0 < longest < math.inf:
-        raise NoBranch(f"step = {step!r}: must be a number > 0")
+        raise NoBranch(f"step = {shown(step)}: must be a number > 0")
     if not is_whole(max_points, 2):
-        raise NoBranch(f"max_points = {max_points!r}: must be a whole number >= 2")
+        raise NoBranch(f"max_points = {shown(max_points)}: must be a whole number >= 2")
     engine.replace(**{path: end}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")

@@ -18,13 +18,19 @@ import numpy as np
 from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import Chamber, CombustionChamber, Engine, check_engine, warn_of_unusual
 from saleg.engine.start import CompressedCharge, Start, standard_charge
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import natural_period, prepare
-from saleg.simulation.outcome import MAX_IMBALANCE, imbalance, is_dead, is_idling
+from saleg.simulation.outcome import (
+    MAX_IMBALANCE,
+    delivers_power,
+    imbalance,
+    is_dead,
+    is_idling,
+)
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
 from saleg.simulation.settings import Detail, Settings, SettingsError
@@ -252,7 +258,7 @@ def steady_state(
     """
     rtol = check_tolerance(rtol)
     if not is_whole(max_maps, 0, 2**31 - 1):
-        raise SettingsError(f"max_maps = {max_maps!r}: must be a whole number >= 0")
+        raise SettingsError(f"max_maps = {shown(max_maps)}: must be a whole number >= 0")
     check_effort(effort)
     check_engine(engine)
     warn_of_unusual(engine, frames=2)  # this one and what accepts earlier keywords
@@ -298,7 +304,7 @@ def check_tolerance(rtol: float) -> float:
     """
     number = as_float(rtol)
     if number is None or not 1e-13 <= number <= 1e-3:
-        raise SettingsError(f"rtol = {rtol!r}: must be a number from 1e-13 to 1e-3")
+        raise SettingsError(f"rtol = {shown(rtol)}: must be a number from 1e-13 to 1e-3")
     return number
 
 
@@ -311,7 +317,7 @@ def check_effort(effort: Effort) -> None:
     """
     if not isinstance(effort, Effort):
         names = " or ".join(f"saleg.Effort.{item.name}" for item in Effort)
-        raise SettingsError(f"effort = {effort!r}: must be {names}")
+        raise SettingsError(f"effort = {shown(effort)}: must be {names}")
 
 
 def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadyState:
@@ -420,6 +426,8 @@ def kind_of(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, s
             "rtol, or check that the energies of the laws belong to their forces: "
         )
     if is_dead(engine, strokes):
+        if delivers_power(strokes):
+            return Status.STEADY, "delivers power without firing: "
         return Status.STALLED, "swings without firing: "
     if is_idling(engine, strokes):
         return Status.IDLING, "fires but delivers no power: "

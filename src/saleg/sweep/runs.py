@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from saleg.batch.points import Evaluation
 from saleg.batch.table import CHUNK, Columns
+from saleg.checks import FUNCTION, checked
 from saleg.design.designs import Design
 from saleg.design.subjects import Subject, subject_of
 from saleg.engine import Engine
@@ -28,6 +29,7 @@ FORMAT = 1
 Report = Callable[[int, int], None]
 
 
+@checked(report=FUNCTION.optional)
 def run(
     points: pd.DataFrame,
     swept: Design | Engine | Subject | None = None,

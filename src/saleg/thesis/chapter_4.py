@@ -18,7 +18,7 @@ import numpy as np
 
 from saleg import sweep
 from saleg.design import Design, evaluate_many
-from saleg.errors import nearest
+from saleg.errors import nearest, shown
 from saleg.plotting import sweeps
 from saleg.sweep import SweepError
 from saleg.thesis.tables import columns
@@ -87,7 +87,7 @@ def sweep_along(name: str, count: int = 61) -> pd.DataFrame:
         If the chapter has no such sweep.
     """
     if name not in SWEEPS:
-        raise SweepError(f"no sweep of Chapter 4 along {name!r}{nearest(name, SWEEPS)}")
+        raise SweepError(f"no sweep of Chapter 4 along {shown(name)}{nearest(name, SWEEPS)}")
     return sweep.run(sweep.grid({name: np.linspace(*SWEEPS[name], count).tolist()}))
 
 

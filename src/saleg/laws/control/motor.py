@@ -8,6 +8,7 @@ from typing import Any
 
 from saleg.laws.arguments import Drive, Signals
 from saleg.laws.control.base import MotorControl
+from saleg.laws.usual import FREQUENCY
 from saleg.quantities import quantity
 
 
@@ -42,7 +43,7 @@ class ResonanceSearch(MotorControl):
         the motion: at zero force, pushing along. Without effect on the literal phase.
     """
 
-    base_frequency: float = quantity("Hz", default=30.0, low=0, high=1e4)
+    base_frequency: float = quantity("Hz", default=30.0, low=0, high=1e4, usual=FREQUENCY)
     amplitude: float = quantity("N", default=264.0, low=0)
     target: float = quantity("-", default=19.0, low=1)
     proportional_gain: float = quantity("Hz", default=1.0, low=0)
@@ -86,7 +87,7 @@ class SteadyMotor(MotorControl):
     """
 
     amplitude: float = quantity("N", default=66.0, low=0)
-    frequency: float = quantity("Hz", default=35.0, low=0, high=1e4)
+    frequency: float = quantity("Hz", default=35.0, low=0, high=1e4, usual=FREQUENCY)
 
     def drive(self, memory: Any, signals: Signals) -> Drive:
         """Force until the next dead centre."""

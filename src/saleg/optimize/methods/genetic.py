@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from saleg.errors import Problem as Wrong
-from saleg.optimize.methods.base import Method, Search, Start, mean_of
+from saleg.optimize.methods.base import MOST, Method, Search, Start, mean_of
 from saleg.optimize.problem import Problem, Told
 from saleg.quantities import as_float, quantity
 
@@ -42,7 +42,7 @@ class GeneticAlgorithm(Method):
     A start is drawn from the designs given, with replacement, or uniform in the box.
     """
 
-    size: int = quantity("-", default=500, low=2, whole=True)
+    size: int = quantity("-", default=500, low=2, high=MOST, whole=True)
     mutation: float = quantity("-", default=0.25, low=0, high=1)
     crossover: float = quantity("-", default=0.25, low=0, high=1)
     generations: int = quantity("-", default=70, low=1, whole=True)
