@@ -32,7 +32,8 @@ def summed(strokes: np.ndarray) -> Any:
     -------
     ndarray of STROKE_RECORD, shape () or (n,)
     """
-    numbers = strokes.view(np.float64).reshape(*strokes.shape, -1)
+    length = strokes.dtype.itemsize // 8
+    numbers = strokes.view(np.float64).reshape(*strokes.shape, length)
     return numbers.sum(axis=-2).view(strokes.dtype)[..., 0]
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from saleg.compiler import plain
 from saleg.engine import Engine
 from saleg.engine.columns import Rows
-from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.laws.columns import by_branch
 from saleg.simulation.initial_state import State, initial_numbers, prepare
@@ -81,7 +80,7 @@ def prepare_rows(rows: Rows, begun: Callable[[Engine], Engine]) -> tuple[States,
     for k in (k for lot in one_by_one for k in lot.tolist()):
         try:
             state = prepare(begun(rows.row(k)))
-        except SalegError:
+        except Exception:  # whoever prepares it by itself will say
             ready[k] = False
             continue
         states.engine[k], states.chambers[k], states.y[k] = state.engine[0], state.chambers, state.y

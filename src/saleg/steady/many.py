@@ -96,7 +96,7 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[SteadyRows]:
     for mirrored in (True, False):
         lot = rows.some(symmetric == mirrored)
         if lot.count:
-            found.append(_searched(lot, mirrored, rtol, effort))
+            found += _searched(lot, mirrored, rtol, effort)
     return found
 
 
@@ -123,9 +123,11 @@ def _from_first_start(engine: Engine) -> Engine:
     return replace(engine, start=next(starts(engine)))
 
 
-def _searched(rows: Rows, mirrored: bool, rtol: float, effort: Effort) -> SteadyRows:
-    """Search from the first start, and the orbits it has found."""
+def _searched(rows: Rows, mirrored: bool, rtol: float, effort: Effort) -> list[SteadyRows]:
+    """Search from the first start, and the orbits it has found, if any."""
     begin, ready = prepare_rows(rows, _from_first_start)
+    if not ready.any():
+        return []
     rows, begin = rows.some(ready), begin.some(ready)
     quick = effort is Effort.QUICK
     states = begin.some(np.arange(rows.count))
@@ -140,19 +142,14 @@ def _searched(rows: Rows, mirrored: bool, rtol: float, effort: Effort) -> Steady
     off = imbalance(strokes[:, 1], strokes)
     good &= are_sharp(orbits.found["slowness"], off, rtol)
     _leave_out_changed_entropies(good, rows, begin, states, NEAR * RESIDUAL * rtol)
+    if not good.any():
+        return []
     maps = orbits.found["maps"][good] * strokes_per_map(mirrored)
     rows, strokes, half_cycles = rows.some(good), strokes[good], maps.astype(int) + 2
     residual = orbits.found["missed"][good]
     status, message = _verdicts(rows, strokes, half_cycles, residual, mirrored, rtol)
-    return SteadyRows(
-        rows=rows,
-        status=status,
-        message=message,
-        strokes=strokes,
-        half_cycles=half_cycles,
-        evaluations=states.engine["evaluations"][good],
-        residual=residual,
-    )
+    evaluations = states.engine["evaluations"][good]
+    return [SteadyRows(rows, status, message, strokes, half_cycles, evaluations, residual)]
 
 
 def _verdicts(
