@@ -27,6 +27,7 @@ from typing import Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
 
+from saleg.columns import Column
 from saleg.errors import Problem, WrongArguments
 from saleg.quantities import Limits, as_float, is_whole
 
@@ -155,6 +156,8 @@ def a(*kinds: Any, wanted: str = "") -> Check:
 
 def as_array(value: Any) -> np.ndarray | None:
     """Numbers in lists, arrays or columns as an array of floats; None if anything else is there."""
+    if isinstance(value, Column):
+        return value
     try:
         given = np.asarray(value)
     except (TypeError, ValueError):

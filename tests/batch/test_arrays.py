@@ -9,9 +9,9 @@ import saleg
 from helpers import single_piston
 from saleg import Effort, laws, sweep
 from saleg.batch.many import steady_row
+from saleg.columns import Column, Differs, by_branch, column, exp, log
 from saleg.engine.columns import is_sound, is_usual, rows_by_make, rows_of_columns
 from saleg.errors import InvalidEngine
-from saleg.laws.columns import Column, Differs, by_branch, column, exp, log
 from saleg.simulation.initial_rows import prepare_rows
 from saleg.simulation.initial_state import prepare
 from saleg.steady.many import steady_rows

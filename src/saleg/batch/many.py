@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from saleg.batch.table import CHUNK, Columns, Row, in_pieces, put_together, rows_of, table_of
+from saleg.batch.table import CHUNK, Columns, Row, filled_up, in_pieces, rows_of, table_of
 from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine, check_engine
@@ -22,7 +22,7 @@ from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance, cycle_figures, is_remarkable, remarks_on
 from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
-from saleg.steady.many import SteadyRows, steady_rows
+from saleg.steady.many import Orbits, steady_rows, verdicts
 from saleg.steady.solver import (
     Effort,
     SteadyState,
@@ -206,15 +206,11 @@ def steady_columns(
     effort : Effort
     """
     together = [
-        (found.rows.places, _columns_of(found))
+        (found.rows.places, columns_of(found, cycle_figures_of(found), *verdicts(found, rtol)))
         for rows in lots
         for found in steady_rows(rows, rtol, effort)
     ]
-    alone = np.full(count, True)
-    for places, _ in together:
-        alone[places] = False
-    others = np.flatnonzero(alone)
-    return put_together(count, [*together, (others, rows_of(row_of, others.tolist()))])
+    return filled_up(count, together, row_of)
 
 
 def _steady_piece(engines: Sequence[Engine], rtol: float, effort: Effort) -> Columns:
@@ -226,19 +222,24 @@ def _steady_piece(engines: Sequence[Engine], rtol: float, effort: Effort) -> Col
     return steady_columns(rows_by_make(engines), row_of, len(engines), rtol, effort)
 
 
-def _columns_of(found: SteadyRows) -> Columns:
-    """Columns of steady states."""
-    engine, strokes, count = found.rows.engine, found.strokes, len(found.status)
-    figures = cycle_figures(engine, strokes)
-    figures["stability"] = closure(engine, strokes)
-    message = found.message.copy()
+def cycle_figures_of(found: Orbits) -> dict[str, Any]:
+    """Figures of orbits."""
+    engine, strokes = found.rows.engine, found.strokes
+    return {**cycle_figures(engine, strokes), "stability": closure(engine, strokes)}
+
+
+def columns_of(
+    found: Orbits, figures: Mapping[str, Any], status: np.ndarray, message: np.ndarray
+) -> Columns:
+    """Columns of orbits; remarks go into their messages."""
+    engine, strokes, count = found.rows.engine, found.strokes, len(status)
     odd = ~is_usual(found.rows) | is_remarkable(engine, figures, strokes)
     for n in np.flatnonzero(odd).tolist():
         one = found.rows.row(n)
         remarks = remarks_on(one, Performance.of_cycle(one, strokes[n], strokes[n]), strokes[n])
         message[n] = "; ".join([message[n], *_odd(one, remarks)])
     return {
-        "status": np.array([str(status) for status in found.status], dtype=object),
+        "status": status,
         "message": message,
         **{
             name: np.broadcast_to(figures.get(name, np.nan), count)

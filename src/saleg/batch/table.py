@@ -40,7 +40,28 @@ def rows_of(row_of: Callable[[T], Row], items: Iterable[T]) -> Columns:
     return {name: _column(name, rows) for name in dict.fromkeys(itertools.chain(*rows))}
 
 
-def put_together(count: int, lots: Sequence[tuple[np.ndarray, Columns]]) -> Columns:
+def filled_up(
+    count: int, lots: Sequence[tuple[np.ndarray, Columns]], row_of: Callable[[int], Row]
+) -> Columns:
+    """Columns of some rows, of which some are known; the others are made one by one.
+
+    Parameters
+    ----------
+    count : int
+        Number of rows.
+    lots : sequence of (ndarray of int, dict of str to ndarray)
+        Places of the rows that are known, and their columns.
+    row_of : callable
+        Row of a place.
+    """
+    alone = np.full(count, True)
+    for places, _ in lots:
+        alone[places] = False
+    others = np.flatnonzero(alone)
+    return _put_together(count, [*lots, (others, rows_of(row_of, others.tolist()))])
+
+
+def _put_together(count: int, lots: Sequence[tuple[np.ndarray, Columns]]) -> Columns:
     """Columns of some rows, given as lots of them and the places of their rows."""
     names = dict.fromkeys(name for _, columns in lots for name in columns)
     whole: Columns = {}

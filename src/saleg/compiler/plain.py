@@ -19,13 +19,14 @@ from typing import Any
 
 import numpy as np
 
+from saleg import columns
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.records import OTHER_SLOTS
 from saleg.compiler.text import own_text
 from saleg.kernel import layout
 from saleg.kernel.decide import decide
 from saleg.kernel.tuples import Control
-from saleg.laws import Law, columns
+from saleg.laws import Law
 from saleg.laws.arguments import Signals
 from saleg.laws.base import CHAMBER_SLOTS
 
@@ -105,7 +106,7 @@ def on_columns() -> SimpleNamespace:
     """Functions of the kernel, by name, that take columns in the place of numbers.
 
     The same text as everywhere; only the elementary functions are those of
-    :mod:`saleg.laws.columns`.
+    :mod:`saleg.columns`.
     """
     names: dict[str, Any] = {"__name__": "saleg.kernel (columns)"}
     names |= dict.fromkeys(("inline", "compiled", "cached"), lambda function: function)

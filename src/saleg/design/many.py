@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 
 from saleg.batch.many import STABILITY_UNITS, steady_row
 from saleg.batch.points import Values, evaluated_points, refuse_parts
-from saleg.batch.table import CHUNK, Row
+from saleg.batch.table import CHUNK, Columns, Row, filled_up
 from saleg.design.designs import Design
 from saleg.design.loop import check_design, solve
 from saleg.design.results import COMPONENT_UNITS, DesignedState
 from saleg.design.score import Score
+from saleg.design.together import solved_together
 from saleg.steady.solver import Effort, check_effort, check_tolerance
 
 if TYPE_CHECKING:
@@ -63,6 +64,15 @@ class DesignSolver:
         return design_row(found, self._multipliers)
 
 
+class DesignSolverOfColumns(DesignSolver):
+    """The same of designs that are independent of each other, without their stability."""
+
+    def columns(self, points: Sequence[Values]) -> Columns:
+        """Rows of some designs, column by column."""
+        together = solved_together(self._design, points, self._rtol, self._effort)
+        return filled_up(len(points), together, lambda place: self(points[place]))
+
+
 @dataclass(frozen=True)
 class EvaluatedDesign:
     """A design of which points replace parameters, or paths of the engine and the mass models."""
@@ -87,7 +97,9 @@ class EvaluatedDesign:
 
     def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> DesignSolver:
         """What makes a row of a point; may remember the point before."""
-        return DesignSolver(self.design, rtol, multipliers, warm, effort)
+        alone = multipliers or warm
+        kind = DesignSolver if alone else DesignSolverOfColumns
+        return kind(self.design, rtol, multipliers, warm, effort)
 
 
 def design_row(found: DesignedState, multipliers: bool) -> Row:

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from saleg import quantities
+from saleg.columns import Column, column, row_of
 from saleg.engine.engine import Engine, lengths_fit
-from saleg.laws.columns import Column, column, row_of
 from saleg.quantities import Limits, Quantities
 
 
@@ -142,7 +142,7 @@ def rows_of_columns(engine: Engine, values: Mapping[str, np.ndarray]) -> list[Ro
         whole = engine.replace(**{path: column(numbers) for path, numbers in values.items()})
     except Exception:  # whoever solves them one by one will say
         return []
-    alike = np.full(count, _alike(whole.left, whole.right))
+    alike = np.full(count, np.asarray(_alike(whole.left, whole.right)))
     mirrored = Rows(dataclasses.replace(whole, right=whole.left), np.arange(count)).some(alike)
     other = Rows(whole, np.arange(count)).some(~alike)
     return [rows for rows in (mirrored, other) if rows.count]
@@ -163,10 +163,15 @@ def is_sound(rows: Rows) -> np.ndarray:
 
     Kinds of parts, and series of numbers, are the same in all rows: of them any row says enough.
     """
-    sound = np.full(rows.count, True) & lengths_fit(rows.engine)
-    for value, limits in _quantities(rows.engine):
+    return are_in_range(rows.engine, rows.count) & np.asarray(lengths_fit(rows.engine))
+
+
+def are_in_range(tree: Any, count: int) -> np.ndarray:
+    """Whether all numbers of a tree of columns lie in their ranges, row by row."""
+    sound = np.full(count, True)
+    for value, limits in _quantities(tree):
         sound &= limits.admits(value) & (abs(value) < np.inf)
-    return np.asarray(sound)
+    return sound
 
 
 def is_usual(rows: Rows) -> np.ndarray:

@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
+from saleg.columns import least_of
 from saleg.engine import paths
 from saleg.engine.chambers import Chamber, CombustionChamber, Fuel, Intake, Translator
 from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine, SalegWarning
 from saleg.laws import Law, LinearLoad, LinearSprings, ViscousFriction
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
-from saleg.laws.columns import least_of
 from saleg.laws.contract import check_laws
 from saleg.quantities import Problem, is_number, problems, unusual
 

@@ -10,9 +10,9 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from saleg.columns import exp, log, sqrt
 from saleg.engine.chambers import Chamber
 from saleg.laws.arguments import Motion
-from saleg.laws.columns import exp, log, sqrt
 from saleg.quantities import Quantities, quantity
 
 #: Exponent with which a start guesses the state of a charge compressed from port closing.

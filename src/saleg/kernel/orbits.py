@@ -19,7 +19,7 @@ from saleg.kernel.orbit import (
 from saleg.kernel.state import begin_stroke, copy_row
 
 
-class Orbits(NamedTuple):
+class Searches(NamedTuple):
     """Engines whose fixed points are looked for, and what was found; a row per engine.
 
     Attributes
@@ -59,34 +59,34 @@ class Orbits(NamedTuple):
 
 
 @inline
-def take_up(orbits, row, mapping):
+def take_up(searches, row, mapping):
     """Copy the numbers of an engine into the return map."""
     run = mapping.integration
-    for n in range(orbits.laws.shape[1]):
-        run.laws[n] = orbits.laws[row, n]
-    copy_row(run.engine, 0, orbits.engine, row)
+    for n in range(searches.laws.shape[1]):
+        run.laws[n] = searches.laws[row, n]
+    copy_row(run.engine, 0, searches.engine, row)
     for side in range(2):
-        copy_row(run.chambers, side, orbits.chambers, 2 * row + side)
+        copy_row(run.chambers, side, searches.chambers, 2 * row + side)
     for n in range(N_ALL):
-        run.y[n] = orbits.y[row, n]
+        run.y[n] = searches.y[row, n]
     for n in range(N_PEAKS):
         run.peaks[n] = 0.0
-    run.options[0].longest = orbits.longest[row]
+    run.options[0].longest = searches.longest[row]
 
 
 @inline
-def put_down(orbits, row, mapping, iterates):
+def put_down(searches, row, mapping, iterates):
     """Copy what has become of an engine out of the return map."""
     run = mapping.integration
-    copy_row(orbits.engine, row, run.engine, 0)
+    copy_row(searches.engine, row, run.engine, 0)
     for side in range(2):
-        copy_row(orbits.chambers, 2 * row + side, run.chambers, side)
+        copy_row(searches.chambers, 2 * row + side, run.chambers, side)
     for n in range(N_ALL):
-        orbits.y[row, n] = run.y[n]
+        searches.y[row, n] = run.y[n]
     for n in range(N_VECTOR):
-        orbits.point[row, n] = iterates.point[n]
-        orbits.residual[row, n] = iterates.residual[n]
-        orbits.image[row, n] = iterates.image[n]
+        searches.point[row, n] = iterates.point[n]
+        searches.residual[row, n] = iterates.residual[n]
+        searches.image[row, n] = iterates.image[n]
 
 
 @compiled
@@ -104,16 +104,16 @@ def begin_on_the_left(mapping, iterates, found):
 
 
 @cached
-def find_orbits(mapping, max_maps, tolerance, iterates, orbits):
+def find_orbits(mapping, max_maps, tolerance, iterates, searches):
     """Entry point: look for the fixed point of every engine."""
     run = mapping.integration
-    for row in range(orbits.codes.shape[0]):
-        take_up(orbits, row, mapping)
-        code = find_orbit(mapping, max_maps, tolerance, iterates, orbits.found[row])
-        orbits.codes[row] = code
-        put_down(orbits, row, mapping, iterates)
+    for row in range(searches.codes.shape[0]):
+        take_up(searches, row, mapping)
+        code = find_orbit(mapping, max_maps, tolerance, iterates, searches.found[row])
+        searches.codes[row] = code
+        put_down(searches, row, mapping, iterates)
         if code == END_OF_TIME and run.engine[0].direction <= 0.0:
-            begin_on_the_left(mapping, iterates, orbits.spare[0])
+            begin_on_the_left(mapping, iterates, searches.spare[0])
         for stroke in range(2):
-            copy_row(orbits.strokes, 2 * row + stroke, run.tables.strokes, stroke)
+            copy_row(searches.strokes, 2 * row + stroke, run.tables.strokes, stroke)
     return 0

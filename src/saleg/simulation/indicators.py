@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from saleg.columns import Column
 from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.kernel.control import NEAREST
-from saleg.laws.columns import Column
 
 if TYPE_CHECKING:
     from saleg.laws import HeatRelease

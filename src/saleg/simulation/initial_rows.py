@@ -7,11 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg.columns import by_branch
 from saleg.compiler import plain
 from saleg.engine import Engine
 from saleg.engine.columns import Rows
 from saleg.kernel import layout
-from saleg.laws.columns import by_branch
 from saleg.simulation.initial_state import State, initial_numbers, prepare
 
 #: Rows from which it pays to prepare them together.

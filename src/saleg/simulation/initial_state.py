@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.columns import log, sqrt
 from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.engine.start import Contents
@@ -18,7 +19,6 @@ from saleg.kernel import layout
 from saleg.kernel.rhs import gas_of, rates_of_motion, refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
-from saleg.laws.columns import log, sqrt
 from saleg.simulation.faulty_law import Fault, asked
 
 if TYPE_CHECKING:

@@ -6,6 +6,7 @@ once. An engine it leads nowhere is left to that function, which tries all other
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -17,7 +18,7 @@ from saleg.engine.columns import Rows, is_sound
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.orbit import strokes_per_map
-from saleg.kernel.orbits import Orbits
+from saleg.kernel.orbits import Searches
 from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
@@ -48,31 +49,57 @@ from saleg.steady.solver import (
 )
 
 
-class SteadyRows(NamedTuple):
+class Limits(NamedTuple):
+    """What a search may take, and how well an orbit must close.
+
+    Attributes
+    ----------
+    max_maps : int
+        Maps.
+    most_steps : int
+        Steps to one return.
+    missed : float
+        Most by which the verifying cycle may miss its start, over the tolerance [-].
+    """
+
+    max_maps: int
+    most_steps: int
+    missed: float
+
+
+class Orbits(NamedTuple):
     """Orbits of engines of one make.
 
     Attributes
     ----------
     rows : Rows
         The engines.
-    status, message : ndarray of object, shape (n,)
+    mirrored : bool
+        Whether they are fixed points of the half-cycle map.
     strokes : ndarray of STROKE_RECORD, shape (n, 2)
         The cycle of each, from its left dead centre.
+    mass : ndarray, shape (n,)
+        Moving mass [kg].
     half_cycles : ndarray of int, shape (n,)
     evaluations, residual : ndarray, shape (n,)
         As in :class:`saleg.SteadyState`.
     """
 
     rows: Rows
-    status: np.ndarray
-    message: np.ndarray
+    mirrored: bool
     strokes: np.ndarray
+    mass: np.ndarray
     half_cycles: np.ndarray
     evaluations: np.ndarray
     residual: np.ndarray
 
+    def some(self, chosen: np.ndarray) -> Orbits:
+        """Some of them."""
+        rest = (part[chosen] for part in self[2:])
+        return Orbits(self.rows.some(chosen), self.mirrored, *rest)
 
-def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[SteadyRows]:
+
+def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
     """Orbits of those among some engines that have one where the first start leads.
 
     Parameters
@@ -85,19 +112,25 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[SteadyRows]:
 
     Returns
     -------
-    list of SteadyRows
+    list of Orbits
         Symmetric engines apart from those that are not.
     """
+    quick = effort is Effort.QUICK
+    taken = (QUICK_MAPS, QUICK_STEPS) if quick else (MAX_MAPS, THOROUGH_STEPS)
+    limits = {True: Limits(*taken, MIRROR_MISSED), False: Limits(*taken, MAX_MISSED)}
+    lots = lots_to_search(rows)
+    found = (searched(lot, mirrored, rtol, limits[mirrored]) for lot, mirrored in lots)
+    return [orbits for orbits in found if orbits is not None]
+
+
+def lots_to_search(rows: Rows) -> list[tuple[Rows, bool]]:
+    """The valid engines that have a return map, and whether it is that of half a cycle."""
     rows = rows.some(is_sound(rows))
     if not rows.count or not _can_be_searched(rows.row(0)):
         return []
     symmetric = _are_symmetric(rows)
-    found = []
-    for mirrored in (True, False):
-        lot = rows.some(symmetric == mirrored)
-        if lot.count:
-            found += _searched(lot, mirrored, rtol, effort)
-    return found
+    lots = [(rows.some(symmetric == mirrored), mirrored) for mirrored in (True, False)]
+    return [(lot, mirrored) for lot, mirrored in lots if lot.count]
 
 
 def _can_be_searched(engine: Engine) -> bool:
@@ -123,60 +156,70 @@ def _from_first_start(engine: Engine) -> Engine:
     return replace(engine, start=next(starts(engine)))
 
 
-def _searched(rows: Rows, mirrored: bool, rtol: float, effort: Effort) -> list[SteadyRows]:
-    """Search from the first start, and the orbits it has found, if any."""
-    begin, ready = prepare_rows(rows, _from_first_start)
-    if not ready.any():
-        return []
-    rows, begin = rows.some(ready), begin.some(ready)
-    quick = effort is Effort.QUICK
-    states = begin.some(np.arange(rows.count))
-    most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
-    return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, most_steps)
-    orbits = _room(rows, states)
-    return_map.find_each(QUICK_MAPS if quick else MAX_MAPS, RESIDUAL * rtol, orbits)
-    strokes = orbits.strokes.reshape(-1, 2)
-    good = orbits.codes == layout.END_OF_TIME
-    good &= orbits.found["missed"] <= (MIRROR_MISSED if mirrored else MAX_MISSED) * rtol
-    good &= are_near(orbits, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
-    off = imbalance(strokes[:, 1], strokes)
-    good &= are_sharp(orbits.found["slowness"], off, rtol)
-    _leave_out_changed_entropies(good, rows, begin, states, NEAR * RESIDUAL * rtol)
-    if not good.any():
-        return []
-    maps = orbits.found["maps"][good] * strokes_per_map(mirrored)
-    rows, strokes, half_cycles = rows.some(good), strokes[good], maps.astype(int) + 2
-    residual = orbits.found["missed"][good]
-    status, message = _verdicts(rows, strokes, half_cycles, residual, mirrored, rtol)
-    evaluations = states.engine["evaluations"][good]
-    return [SteadyRows(rows, status, message, strokes, half_cycles, evaluations, residual)]
-
-
-def _verdicts(
+def searched(
     rows: Rows,
-    strokes: np.ndarray,
-    half_cycles: np.ndarray,
-    residual: np.ndarray,
     mirrored: bool,
     rtol: float,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Status and message of each fixed point; most are steady states."""
-    pairs = zip(half_cycles.tolist(), residual.tolist(), strict=True)
-    messages = [fixed_point_message(mirrored, *pair) for pair in pairs]
-    statuses = [Status.STEADY] * len(messages)
+    limits: Limits,
+    tell: Callable[[States, np.ndarray], None] | None = None,
+) -> Orbits | None:
+    """Search from the first start, and the orbits it has found, if any.
+
+    Parameters
+    ----------
+    rows : Rows
+        Valid engines.
+    mirrored : bool
+        Whether the map is that of half a cycle.
+    rtol : float
+        Tolerance of the integrator.
+    limits : Limits
+    tell : callable, optional
+        Writes into the states the search begins with, given whether each row has one.
+    """
+    begin, ready = prepare_rows(rows, _from_first_start)
+    if not ready.any():
+        return None
+    rows, begin = rows.some(ready), begin.some(ready)
+    if tell is not None:
+        tell(begin, ready)
+    states = begin.some(np.arange(rows.count))
+    return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
+    room = _room(rows, states)
+    return_map.find_each(limits.max_maps, RESIDUAL * rtol, room)
+    strokes = room.strokes.reshape(-1, 2)
+    good = room.codes == layout.END_OF_TIME
+    good &= room.found["missed"] <= limits.missed * rtol
+    good &= are_near(room, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
+    good &= are_sharp(room.found["slowness"], imbalance(strokes[:, 1], strokes), rtol)
+    _leave_out_changed_entropies(good, rows, begin, states, NEAR * RESIDUAL * rtol)
+    if not good.any():
+        return None
+    half_cycles = (room.found["maps"] * strokes_per_map(mirrored)).astype(int) + 2
+    mass, evaluations = states.engine["mass"], states.engine["evaluations"]
+    residual = room.found["missed"]
+    return Orbits(rows, mirrored, strokes, mass, half_cycles, evaluations, residual).some(good)
+
+
+def verdicts(orbits: Orbits, rtol: float) -> tuple[np.ndarray, np.ndarray]:
+    """Status and message of each orbit; most are steady states."""
+    rows, strokes = orbits.rows, orbits.strokes
+    pairs = zip(orbits.half_cycles.tolist(), orbits.residual.tolist(), strict=True)
+    messages = [fixed_point_message(orbits.mirrored, *pair) for pair in pairs]
+    statuses = [str(Status.STEADY)] * len(messages)
     off = imbalance(strokes[:, 1], strokes) > max_imbalance(rtol)
     odd = off | is_dead(rows.engine, strokes) | is_idling(rows.engine, strokes)
     for n in np.flatnonzero(odd).tolist():
-        statuses[n], what = kind_of(rows.row(n), strokes[n], rtol)
-        messages[n] = what + messages[n]
+        status, what = kind_of(rows.row(n), strokes[n], rtol)
+        statuses[n], messages[n] = str(status), what + messages[n]
     return np.array(statuses, dtype=object), np.array(messages, dtype=object)
 
 
-def _room(rows: Rows, states: States) -> Orbits:
+def _room(rows: Rows, states: States) -> Searches:
     """Engines and their states as the compiled search takes them, with room for what it finds."""
     n, E = rows.count, states.engine
     vectors = np.zeros((3, n, layout.N_VECTOR))
-    return Orbits(
+    return Searches(
         laws=numbers_of_rows(rows.engine, n),
         engine=E,
         chambers=states.chambers.reshape(2 * n),

@@ -32,7 +32,7 @@ from saleg.kernel.orbit import (
     strokes_per_map,
     write_vector,
 )
-from saleg.kernel.orbits import Orbits
+from saleg.kernel.orbits import Searches
 from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
 from saleg.laws import NoHeatTransfer, NoMisfires
 from saleg.laws.arguments import Charge, Gas, Motion
@@ -206,9 +206,9 @@ class ReturnMap:
         self.iterates = _iterates()
         return self._do(FIND, self.iterates, max_maps, tolerance)
 
-    def find_each(self, max_maps: int, tolerance: float, orbits: Orbits) -> None:
+    def find_each(self, max_maps: int, tolerance: float, searches: Searches) -> None:
         """Look for the fixed points of many engines of the same laws, one after the other."""
-        self.kernel.call("find_orbits", self.mapping, max_maps, tolerance, _iterates(), orbits)
+        self.kernel.call("find_orbits", self.mapping, max_maps, tolerance, _iterates(), searches)
 
     def _do(
         self, task: int, iterates: Iterates, max_maps: int = 0, tolerance: float = 0.0

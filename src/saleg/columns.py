@@ -36,7 +36,7 @@ class Column(np.ndarray):
 
     def __bool__(self) -> bool:
         count = np.count_nonzero(self)
-        if 0 < count < len(self):
+        if 0 < count < self.size:
             raise Differs(np.asarray(self) != 0.0)
         return bool(count > 0)
 
