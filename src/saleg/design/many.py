@@ -9,14 +9,15 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from saleg.batch.many import STABILITY_UNITS, steady_row
 from saleg.batch.points import Values, evaluated_points, refuse_parts
 from saleg.batch.table import CHUNK, Columns, Row, filled_up
 from saleg.design.designs import Design
 from saleg.design.loop import check_design, solve
 from saleg.design.results import COMPONENT_UNITS, DesignedState
-from saleg.design.score import Score
-from saleg.design.together import solved_together
+from saleg.design.together import scores, solved_together
 from saleg.steady.solver import Effort, check_effort, check_tolerance
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ def design_row(found: DesignedState, multipliers: bool) -> Row:
     row |= found.component_figures
     if not found.found:
         row["moving_mass"] = math.nan  # of what was simulated, a guess
-    row["score"] = float(Score()(row))
+    row["score"] = float(scores({name: np.array([value]) for name, value in row.items()})[0])
     return row
 
 

@@ -152,12 +152,17 @@ def _columns(designs: Designs, orbits: Orbits, rtol: float) -> list[tuple[np.nda
         steady = np.isin(status, [str(Status.STEADY), str(Status.IDLING)])
         for name in ("moving_mass", "power_density", "frequency_ratio"):
             columns[name] = np.where(steady, columns[name], math.nan)
-        columns["score"] = np.asarray(Score()(columns), dtype=float)
+        columns["score"] = scores(columns)
         agrees = np.abs(error) <= MASS_TOLERANCE * rtol
         if agrees.any():
             kept = {name: values[agrees] for name, values in columns.items()}
             lots.append((found.rows.places[agrees], kept))
     return lots
+
+
+def scores(columns: Columns) -> np.ndarray:
+    """Scores of rows; numpy's functions of arrays differ from those of numbers in the last bit."""
+    return np.asarray(Score()(columns), dtype=float)
 
 
 def _components(designs: Designs, found: Orbits) -> dict[str, Any]:
