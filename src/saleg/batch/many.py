@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from saleg.batch.table import CHUNK, Columns, Row, filled_up, in_pieces, rows_of, table_of
+from saleg.batch.table import (
+    CHUNK,
+    Columns,
+    Row,
+    filled_up,
+    in_pieces,
+    rows_of,
+    suitable_chunk,
+    table_of,
+)
 from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine, check_engine
@@ -38,8 +46,6 @@ if TYPE_CHECKING:
 
     from saleg.simulation.run import Run
 
-#: Steady states solved together, from which on it makes no difference.
-MOST_TOGETHER = 128
 #: Figures that need the whole history of a cycle; a batch leaves them out.
 NOT_IN_ROWS = ("adverse_work",)
 
@@ -90,8 +96,7 @@ def steady_states(
     workers : int, optional
         Threads; as many as there are processors unless given.
     chunk : int, optional
-        Engines sent at a time; 128 unless given, which are solved together, but fewer of a list
-        that would not keep all workers busy.
+        Engines sent at a time; 32 to 128 unless given, so that no worker waits.
 
     Returns
     -------
@@ -119,16 +124,9 @@ def steady_states(
     else:
         work, units = partial(_steady_piece, rtol=rtol, effort=effort), STEADY_UNITS
     if chunk is None:
-        chunk = _suitable_chunk(engines, workers)
+        count = len(engines) if isinstance(engines, Sequence) else None
+        chunk = suitable_chunk(count, workers)
     return batch_table(work, engines, units, kernel_for, executor, workers, chunk)
-
-
-def _suitable_chunk(engines: Iterable[Engine], workers: int | None) -> int:
-    """Engines to send at a time: two pieces or more for each worker, if the engines are counted."""
-    if not isinstance(engines, Sequence):
-        return MOST_TOGETHER
-    pieces = 2 * (workers or os.cpu_count() or 1)
-    return min(max(-(-len(engines) // pieces), CHUNK), MOST_TOGETHER)
 
 
 def simulate_many(

@@ -7,7 +7,7 @@ from concurrent.futures import Executor
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
-from saleg.batch.table import Columns, Row, in_pieces, rows_of, table_of
+from saleg.batch.table import Columns, Row, in_pieces, rows_of, suitable_chunk, table_of
 from saleg.batch.workers import check_workers
 from saleg.errors import SweepError
 from saleg.quantities import is_number
@@ -80,19 +80,19 @@ class Evaluation:
         points: pd.DataFrame,
         evaluated: Evaluated,
         solver: Callable[[], Solver],
-        chunk: int,
+        chunk: int | None,
         executor: Executor | None,
         workers: int | None,
     ):
         _check(points, evaluated)
-        check_workers(executor, workers, chunk)
+        check_workers(executor, workers, 1 if chunk is None else chunk)
         solver()  # what it refuses, it refuses here
         self.input_units = {str(name): evaluated.unit(str(name)) for name in points}
         self.points = self._described(points.reset_index(drop=True), self.input_units)
-        self.chunk = chunk
+        self.chunk = suitable_chunk(len(points), workers) if chunk is None else chunk
         self._result_units = evaluated.units
         self._pieces = partial(
-            in_pieces, partial(_rows, solver), chunk=chunk, executor=executor, workers=workers
+            in_pieces, partial(_rows, solver), chunk=self.chunk, executor=executor, workers=workers
         )
 
     def parts(self, done: Collection[int] = ()) -> Iterator[tuple[int, Columns]]:

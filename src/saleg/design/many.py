@@ -13,7 +13,7 @@ import numpy as np
 
 from saleg.batch.many import STABILITY_UNITS, steady_row
 from saleg.batch.points import Values, evaluated_points, refuse_parts
-from saleg.batch.table import CHUNK, Columns, Row, filled_up
+from saleg.batch.table import Columns, Row, filled_up
 from saleg.design.designs import Design
 from saleg.design.loop import check_design, solve
 from saleg.design.results import COMPONENT_UNITS, DesignedState
@@ -94,7 +94,7 @@ class EvaluatedDesign:
 
     def refuse_clash(self, names: Iterable[str]) -> None:
         """Refuse inputs of which two stand for one number."""
-        self.design.replace(dict.fromkeys(names, math.nan))
+        self.design.replace({name: self.design.get(name) for name in names})
 
     def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> DesignSolver:
         """What makes a row of a point; may remember the point before."""
@@ -122,7 +122,7 @@ def evaluate_many(
     effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
 ) -> pd.DataFrame:
     """Evaluate many designs.
 
