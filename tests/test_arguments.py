@@ -4,11 +4,23 @@ import inspect
 import pickle
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import saleg
 from saleg import SalegError, control, optimize, studies, sweep
-from saleg.checks import FRAME, NUMBER, POSITIVE, SERIES, checked, each, number, numbers, whole
+from saleg.checks import (
+    FRAME,
+    NUMBER,
+    ONE_OR_MORE,
+    POSITIVE,
+    SERIES,
+    checked,
+    each,
+    number,
+    numbers,
+    whole,
+)
 from saleg.design import formulas
 from saleg.errors import WrongArguments
 from saleg.studies import sensitivity
@@ -53,7 +65,8 @@ CASES = [
     (SERIES, [[1, 2.5], (0.0,), np.ones(3), iter([1.0]), []], [5, "12", {1.0: 2}, [[1.0]], ["a"]]),
     (each(whole(0), "counts"), [[0, 2]], [[0.5], None]),
     (numbers(0.0), [1.0, [0.0, 2.0], np.ones((2, 2))], [-1.0, [1.0, -2.0], "a", [True], [np.nan]]),
-    (FRAME, [], [None, {"a": [1.0]}, np.ones(3)]),
+    (ONE_OR_MORE, [3, [1.0, 2]], ["x", np.ones((2, 2)), pd.DataFrame({5: [1.0]})]),
+    (FRAME, [pd.DataFrame()], [None, {"a": [1.0]}, np.ones(3)]),
 ]
 
 
@@ -105,6 +118,10 @@ CALLS = [
     (lambda found: saleg.design.Design().get(np.ones(2)), "a path is text"),
     (lambda found: sweep.run(sweep.grid({"bore": [0.06]}), report=5), "report = 5"),
     (lambda found: saleg.simulate(saleg.machines.thesis_base(), 10**5000), "duration = <int>"),
+    (
+        lambda found: control.motored(saleg.machines.thesis_base(), [1.0, 2.0], [1.0, 2.0, 3.0]),
+        "2 frequencies and 3 amplitudes",
+    ),
     (lambda found: saleg.plotting.forces(None), "run = None"),
     (lambda found: saleg.export.save(None, "run.npz"), "run = None"),
     (lambda found: saleg.fundamental.march(None, -0.5), "system = None"),

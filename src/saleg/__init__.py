@@ -36,7 +36,7 @@ from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.status import Status
 from saleg.steady.solver import Effort, SteadyState, steady_state
-from saleg.version import __version__
+from saleg.version import __version__, show_versions
 
 __all__ = [
     "BounceChamber",
@@ -62,6 +62,7 @@ __all__ = [
     "__version__",
     "laws",
     "machines",
+    "show_versions",
     "simulate",
     "simulate_many",
     "steady_state",

@@ -13,7 +13,7 @@ Examples
 Traceback (most recent call last):
 saleg.errors.WrongArguments: 2 wrong fields in the arguments of later():
   times = None: must be a list of numbers, or the like
-  at = -1.0: must be a finite number >= 0
+  at = -1.0: must be a number >= 0
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def number(
             return None
         return found
 
-    return Check(read, limits.wanted("a finite number"))
+    return Check(read, limits.wanted("a number" if str(limits) else "a finite number"))
 
 
 def numbers(low: float = -math.inf, *, open_low: bool = False) -> Check:
@@ -173,6 +173,8 @@ def _series(value: Any, read: Callable[[Any], Any]) -> list[Any] | None:
     """Items of a list or the like, each read; None if one is wrong."""
     if isinstance(value, (str, bytes, Mapping, Set)) or not isinstance(value, Iterable):
         return None
+    if getattr(value, "ndim", 1) != 1:  # a table, which would give the names of its columns
+        return None
     try:
         found = [read(item) for item in value]
     except TypeError:  # what only looks like a list
@@ -190,6 +192,10 @@ def each(check: Check, wanted: str) -> Check:
 NUMBER = number()
 POSITIVE = number(0.0, open_low=True)
 SERIES = each(NUMBER, "numbers")
+ONE_OR_MORE = Check(
+    lambda value: SERIES.read(value) if NUMBER.read(value) is None else NUMBER.read(value),
+    "must be a finite number, or a list of such numbers",
+)
 FLAG = Check(
     lambda value: bool(value) if isinstance(value, (bool, np.bool_)) else None,
     "must be True or False",

@@ -7,6 +7,26 @@ import reprlib
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
+__all__ = [
+    "AxesError",
+    "ControllerError",
+    "EngineFileError",
+    "InvalidController",
+    "InvalidEngine",
+    "LawError",
+    "OutsideModel",
+    "PathsClash",
+    "Problem",
+    "RunFileError",
+    "SalegError",
+    "SalegWarning",
+    "StartError",
+    "SweepError",
+    "UnknownPath",
+    "WrongFields",
+    "WrongQuantity",
+]
+
 
 def shown(value: Any) -> str:
     """A value as one line of text, cut where it is long, whatever its own text does.
@@ -23,7 +43,19 @@ def shown(value: Any) -> str:
 
 
 class Problem(NamedTuple):
-    """One field that is wrong, or unusual: where, what stands there, and what may."""
+    """One field that is wrong, or unusual: where, what stands there, and what may.
+
+    Attributes
+    ----------
+    path : str
+        Dotted path of the field.
+    value : object
+        What stands there.
+    unit : str
+        Its SI unit; "-" for a pure number.
+    allowed : str
+        What may stand there, in words.
+    """
 
     path: str
     value: Any

@@ -13,6 +13,8 @@ from typing import Any, NamedTuple
 from saleg.errors import Problem as Problem
 from saleg.errors import WrongQuantity, shown
 
+__all__ = ["Quantities", "problems", "quantity", "series", "unusual"]
+
 
 class Quantities:
     """Base of dataclasses of quantities: numbers become floats at the door, exactly.
@@ -51,9 +53,9 @@ def quantity(
     unit : str
         SI unit as people write it, ``"-"`` for a pure number.
     default : float, optional
-        Default value; the field is required without one.
+        Default value, in that unit; the field is required without one.
     low, high : float
-        Allowed range.
+        Allowed range, in that unit.
     open_low, open_high : bool
         Whether the end itself is excluded.
     usual : (float, float), optional
@@ -80,7 +82,7 @@ def quantity(
     >>> problems(Rod(-1.0), "rod")[0].path
     'rod.length'
     >>> str(unusual(Rod(250.0))[0])
-    'length = 250.0 [m]: usually 0.01 to 3; it would be 0.25 if given in mm'
+    'length = 250.0 [m]: usually 0.01 to 3; it would be 0.25 if given in mm, 2.5 if given in cm'
     """
     ends = float(low), float(high), open_low, open_high
     limits = Limits(_checked_unit(unit), *ends, usual, int if whole else float)
@@ -109,7 +111,7 @@ def series(
     default : tuple of float, optional
         Default values; the field is required without.
     low, high : float
-        Allowed range of every number.
+        Allowed range of every number, in that unit.
     rising : bool
         Whether every number must be greater than the one before.
     never_falling : bool
@@ -343,7 +345,8 @@ def unusual(node: Any, path: str = "") -> list[Problem]:
             continue
         numbers = value if isinstance(value, tuple) else (value,)
         odd = [number for number in numbers if not is_usual(number, limits)]
-        if odd:
+        # A slip of units is one of all numbers; 0 is the same in all.
+        if odd and len(odd) == sum(number != 0.0 for number in numbers):
             found.append(Problem(where, value, limits.unit, _usual_text(odd[0], limits)))
     return found
 

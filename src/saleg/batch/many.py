@@ -85,7 +85,7 @@ def steady_states(
     engines : iterable of Engine
         Taken as they are needed, so they need not all exist at once.
     rtol : float
-        Tolerance of the integrator.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     effort : Effort

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.checks import FLAG, NUMBER, POSITIVE, a, checked, each, numbers, whole
+from saleg.checks import FLAG, NUMBER, ONE_OR_MORE, POSITIVE, a, checked, each, whole
 from saleg.control.running import motor_returns, simulate, simulate_many
 from saleg.engine import Engine, check_controller, check_engine
 from saleg.engine.controller import Controller
@@ -40,7 +40,7 @@ FOR_EVER = 1e12
 RECOVERED = 0.02
 
 
-@checked(engine=a(Engine), frequencies=numbers(), amplitudes=numbers(), duration=POSITIVE)
+@checked(engine=a(Engine), frequencies=ONE_OR_MORE, amplitudes=ONE_OR_MORE, duration=POSITIVE)
 def motored(
     engine: Engine,
     frequencies: Sequence[float],
@@ -70,7 +70,14 @@ def motored(
     """
     import pandas as pd
 
-    pairs = np.broadcast_arrays(*(np.atleast_1d(v) for v in (frequencies, amplitudes)))
+    given = np.atleast_1d(frequencies), np.atleast_1d(amplitudes)
+    counts = [len(values) for values in given]
+    if counts[0] != counts[1] and 1 not in counts:
+        raise SettingsError(
+            f"{counts[0]} frequencies and {counts[1]} amplitudes: must be as many, or a single one "
+            "of either"
+        )
+    pairs = np.broadcast_arrays(*given)
     check_engine(engine)
     at_rest = engine.replace(start=AtRest())
     controllers = [
@@ -333,7 +340,7 @@ def misfires(
     strokes : sequence of int
         Numbers of strokes without fuel.
     at, duration : float
-        As for :func:`misfire`.
+        As for :func:`misfire` [s].
     **settings
         Further settings of :func:`saleg.control.simulate`.
 

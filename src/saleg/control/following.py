@@ -85,7 +85,7 @@ def demand_by_load(
     demand : Demand
         Power over time.
     share, proportional_gain, integral_gain : float
-        Of :class:`saleg.laws.PowerDemand`; the dissertation gives none of them.
+        Of :class:`saleg.laws.PowerDemand` [-, -, 1/s]; the dissertation gives none of them.
     **settings
         Duration and further settings of :func:`follow_demand`.
 

@@ -59,12 +59,12 @@ class OperatingMap:
 
     @property
     def lowest(self) -> float:
-        """Least value of the quantity among them (SI)."""
+        """Least value of the quantity among them, in its SI unit."""
         return float(self._usable()[self.path].min())
 
     @property
     def highest(self) -> float:
-        """Greatest value of the quantity among them (SI)."""
+        """Greatest value of the quantity among them, in its SI unit."""
         return float(self._usable()[self.path].max())
 
     def _usable(self) -> pd.DataFrame:

@@ -87,7 +87,7 @@ def solve(
     ----------
     design : Design
     rtol : float
-        Tolerance of the integrator, of the state after a return, and of the mass.
+        Tolerance of the integrator, of the state after a return, and of the mass [-].
     near : DesignedState, optional
         A neighbour's orbit to start from, which follows its branch where there are several.
     effort : Effort
@@ -174,7 +174,7 @@ def evaluate(
     design : Design, optional
         Laws, mass models and parameters not given; those of Chapter 4 unless given.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     effort : Effort
         As for :func:`solve`.
     **values

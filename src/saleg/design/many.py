@@ -35,7 +35,7 @@ class DesignSolver:
     design : Design
         What the values of a row replace something of.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state.
     warm : bool
@@ -134,7 +134,7 @@ def evaluate_many(
     design : Design, optional
         Those of Chapter 4 unless given.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     effort : Effort

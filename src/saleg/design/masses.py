@@ -160,7 +160,13 @@ class AirSprings:
 
 
 class Masses(NamedTuple):
-    """Moving masses by component [kg]."""
+    """Moving masses by component.
+
+    Attributes
+    ----------
+    alternator, pistons, rod, springs : float
+        Mass of the mover, both heads, the rod, and the moving share of the springs [kg].
+    """
 
     alternator: float
     pistons: float

@@ -27,6 +27,7 @@ class DesignedState(SteadyState):
     Attributes
     ----------
     design : Design
+        What was evaluated.
     operation : Operation
         Stroke, frequency and power the components were sized for.
     masses : Masses

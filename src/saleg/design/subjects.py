@@ -34,7 +34,13 @@ class Subject(Evaluated, Protocol):
 
 
 class DesignSubject(EvaluatedDesign):
-    """Designs: inputs are the eight parameters, or paths of the engine and the mass models."""
+    """Designs: inputs are the eight parameters, or paths of the engine and the mass models.
+
+    Parameters
+    ----------
+    design : Design
+        What is as it is unless a point says otherwise.
+    """
 
     def describe(self) -> dict[str, Any]:
         """Parameters, masses and laws."""
@@ -51,7 +57,13 @@ class DesignSubject(EvaluatedDesign):
 
 @dataclasses.dataclass(frozen=True)
 class EngineSubject:
-    """An engine as it stands: inputs are its paths, the moving mass among them."""
+    """An engine as it stands: inputs are its paths, the moving mass among them.
+
+    Parameters
+    ----------
+    engine : Engine
+        What is as it is unless a point says otherwise.
+    """
 
     engine: Engine
 

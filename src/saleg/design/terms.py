@@ -48,7 +48,7 @@ class Limit(NamedTuple):
     figure : str
         Column of the table.
     low, high : float
-        Ends of the range (SI).
+        Ends of the range, in the SI unit of the figure.
 
     Examples
     --------
@@ -278,6 +278,8 @@ class Repeats(_Curve):
     ----------
     tolerance : float
         Change at which most is lost [-].
+    figure : str
+        Name it is shown by.
     """
 
     tolerance: float = quantity("-", default=0.1, low=0, open_low=True)
@@ -348,6 +350,8 @@ class Own:
         without a steady state are NaN, and may give NaN; others may not.
     figure : str
         What it is called.
+    limits : tuple of Limit
+        Ranges of figures outside which it earns nothing.
 
     Examples
     --------

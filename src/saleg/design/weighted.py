@@ -17,7 +17,15 @@ if TYPE_CHECKING:
 
 
 class Weighted(NamedTuple):
-    """A term with its weight."""
+    """A term with its weight.
+
+    Attributes
+    ----------
+    weight : float
+        Weight in the mean [-].
+    term : Term
+        What it weighs.
+    """
 
     weight: float
     term: Term

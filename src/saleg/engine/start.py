@@ -94,7 +94,7 @@ class CompressedCharge(Start):
     position : float
         Position as a share of the half stroke, negative on the left [-].
     burning : float
-        1 to light the charge at time zero, 0 to leave it unlit.
+        1 to light the charge at time zero, 0 to leave it unlit [-].
     """
 
     position: float = quantity("-", default=-0.9, low=-1, high=1, open_low=True, open_high=True)
@@ -162,7 +162,20 @@ class AtRest(Start):
 
 
 def contents(chamber: Any, displacement: float, burning: bool = False) -> Contents:
-    """What a chamber holds with its piston `displacement` [m] from the midpoint, outward."""
+    """What a chamber holds with its piston somewhere.
+
+    Parameters
+    ----------
+    chamber : Chamber
+    displacement : float
+        Position of the piston from the midpoint, away from its head [m].
+    burning : bool
+        Whether the charge is lit, if the ports are closed.
+
+    Returns
+    -------
+    Contents
+    """
     height = chamber.half_stroke + displacement
     full = chamber.reference_state
     squeeze = full.clearance / height
@@ -178,10 +191,20 @@ def contents(chamber: Any, displacement: float, burning: bool = False) -> Conten
 
 
 def adiabatic_rise(chamber: Any, squeeze: float) -> float:
-    """Pressure over that at the midpoint of a gas compressed adiabatically `squeeze` times.
+    """Pressure of an adiabatically compressed gas over that in the reference state [-].
 
     ``d ln T / d ln V = 1 - gamma(T)`` by the classical Runge-Kutta method, so that the charge of a
     sealed chamber does not depend on where a run begins.
+
+    Parameters
+    ----------
+    chamber : Chamber
+    squeeze : float
+        Volume in the reference state over that now [-].
+
+    Returns
+    -------
+    float
     """
     gamma = chamber.gas_properties.gamma
     filled = chamber.reference_state.temperature
@@ -197,7 +220,17 @@ def adiabatic_rise(chamber: Any, squeeze: float) -> float:
 
 
 def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
-    """Mass, fuel, air and burnt gas [kg] of the charge of a cylinder that runs steadily."""
+    """Mass, fuel, air and burnt gas of the charge of a cylinder that runs steadily.
+
+    Parameters
+    ----------
+    cylinder : Cylinder or SealedCylinder
+
+    Returns
+    -------
+    (float, float, float, float)
+        Masses [kg].
+    """
     mass = charge_mass(cylinder)
     ratio, phi = cylinder.fuel.air_fuel_ratio, cylinder.equivalence_ratio
     if phi <= 0.0:
@@ -210,7 +243,16 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
 
 
 def charge_mass(chamber: Any) -> float:
-    """Mass of the charge [kg]; of a ported cylinder ``p_in A d_po / (R T_in)``."""
+    """Mass of the charge [kg]; of a ported cylinder ``p_in A d_po / (R T_in)``.
+
+    Parameters
+    ----------
+    chamber : Chamber
+
+    Returns
+    -------
+    float
+    """
     full, area = chamber.reference_state, math.pi * chamber.bore**2 / 4.0
     density = full.pressure / (chamber.gas_properties.gas_constant * full.temperature)
     return density * area * full.clearance

@@ -34,7 +34,13 @@ class Outcome(StrEnum):
 
 
 class Path(NamedTuple):
-    """Time, position, velocity and acceleration along strokes [-], arrays of shape (n,)."""
+    """Motion along strokes, dimensionless.
+
+    Attributes
+    ----------
+    t, x, v, a : ndarray, shape (n,)
+        Time, position, velocity and acceleration [-].
+    """
 
     t: np.ndarray
     x: np.ndarray

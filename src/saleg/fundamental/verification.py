@@ -161,7 +161,7 @@ def verify(
     scales : Scales
         Those of the engine; the thesis' base case unless given.
     rtol : float
-        Tolerance of the numeric engine.
+        Tolerance of the numeric engine [-].
 
     Returns
     -------

@@ -55,7 +55,7 @@ class LinearLoad(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -123,7 +123,7 @@ class ConstantForce(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -156,7 +156,7 @@ class CosineForce(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -197,7 +197,7 @@ class CircuitAlternator(RegulatedAlternator):
     least_weight : float
         Load weight at which the circuit counts as open: the load resistance grows no further [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -246,7 +246,7 @@ class FluxProfile(RegulatedAlternator):
     cogging : tuple of float
         Fourier coefficients c_n of the cogging force, from n = 1 on [N].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     load_constant: float = quantity("N s/m", default=70.0, low=0, usual=LOAD_CONSTANT)
@@ -302,7 +302,7 @@ class ForceMap(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     positions: tuple[float, ...] = series("m", default=(0.0,), rising=True)

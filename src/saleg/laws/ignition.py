@@ -107,7 +107,7 @@ class RCMIgnitionPascal(RCMIgnition):
     Parameters
     ----------
     A, pressure_exponent, equivalence_ratio_exponent, oxygen_exponent, activation_energy : float
-        See :class:`RCMIgnition`.
+        As for :class:`RCMIgnition`, in its units [s, -, cal/mol], with the pressure in pascal.
     """
 
     def rate(self, gas: Gas, charge: Charge) -> float:

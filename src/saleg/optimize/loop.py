@@ -34,7 +34,17 @@ MARKS = ("generation", "copied", "verified")
 
 
 class Progress(NamedTuple):
-    """How far an optimisation is, after a generation that is on disk."""
+    """How far an optimisation is, after a generation that is on disk.
+
+    Attributes
+    ----------
+    generation : int
+        Number of the generation, from 1.
+    evaluations, of : int
+        Designs evaluated, and how many there may be.
+    best, mean : float
+        Best fitness so far, and the mean of this generation [-].
+    """
 
     generation: int
     evaluations: int
@@ -78,7 +88,7 @@ def optimize(
         Designs to begin with, a column per parameter (SI). Rows that have all other columns too,
         as those of ``found.table`` or of a sweep, are not evaluated again.
     stop_at : float
-        Fitness at which to end.
+        Fitness at which to end [-].
     report : callable, optional
         Called with a :class:`Progress` after every generation.
 

@@ -111,6 +111,15 @@ def script_score(target_power: float | None = 4e3) -> WeightedScore:
 
     Stability is the change of the compression ratio from one half cycle to the next. The bells of
     stability and power are named there but not printed.
+
+    Parameters
+    ----------
+    target_power : float, optional
+        Power aimed at [W]; None leaves power out.
+
+    Returns
+    -------
+    WeightedScore
     """
     terms = [
         Reached("efficiency", 0.4, 0.4),

@@ -95,7 +95,7 @@ class Problem:
         How much work a design may be. ``Effort.QUICK`` gives up one without an orbit from the
         standard starts after a few milliseconds.
     rtol : float
-        Tolerance of the integrator.
+        Tolerance of the integrator [-].
 
     Raises
     ------
@@ -244,7 +244,7 @@ class Problem:
         return Told(table, values, missed, fitness, guide)
 
     def shown(self, fitness: float) -> float:
-        """First objective behind a fitness; NaN where limits are missed or nothing is found."""
+        """First objective behind a fitness, in its SI unit; NaN for missed limits and no result."""
         if not fitness > MISSES:
             return math.nan
         return fitness if self.objectives[0].maximise else -fitness

@@ -45,7 +45,7 @@ def animate(
     width : float
         Width [inch], 4 to 16, of 80 dots each.
     rate : float
-        Frames shown per second, 1 to 60.
+        Frames shown per second [1/s], 1 to 60.
     overwrite : bool
         Whether an earlier file is replaced.
 

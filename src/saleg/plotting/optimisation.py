@@ -264,5 +264,14 @@ FIGURES: dict[str, Callable[..., Any]] = {
 
 
 def plots(found: Found) -> Plots:
-    """``found.plot``: the figures of an optimisation under their names."""
+    """``found.plot``: the figures of an optimisation under their names.
+
+    Parameters
+    ----------
+    found : Found
+
+    Returns
+    -------
+    Plots
+    """
     return Plots(found, FIGURES, "an optimisation")

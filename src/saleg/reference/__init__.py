@@ -61,13 +61,13 @@ def simulate(
         best; a multistep method loses its order at each of some hundred restarts a second and
         comes to about a hundred times its tolerance (LSODA), or a thousand (BDF).
     rtol : float
-        Relative tolerance; the absolute one of each component is this times its natural size.
+        Relative tolerance [-]; the absolute one of each component is this times its natural size.
     jitted : bool
         Compile the right-hand side; it is the same source.
     motored_pressure : bool
         Integrate the motored pressure as well.
     stall_stroke : float
-        End the run as stalled when a stroke is shorter than this share of the maximum stroke.
+        End the run as stalled when a stroke is shorter than this share of the maximum stroke [-].
 
     Returns
     -------

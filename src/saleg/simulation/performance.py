@@ -323,27 +323,27 @@ class EnergyBalance:
     Attributes
     ----------
     fuel : float
-        Lower heating value of the fresh fuel.
+        Lower heating value of the fresh fuel [J].
     unburnt : float
-        Lower heating value of the fuel that left with the exhaust.
+        Lower heating value of the fuel that left with the exhaust [J].
     released : float
-        Heat released by combustion.
+        Heat released by combustion [J].
     heat_transfer : float
-        Heat to the walls.
+        Heat to the walls [J].
     exhaust : float
-        Internal energy given up when the ports opened, against that of the fresh charge.
+        Internal energy given up when the ports opened, against that of the fresh charge [J].
     port_work : float
-        Work of the intake pressure on the pistons while the ports are open.
+        Work of the intake pressure on the pistons while the ports are open [J].
     friction, alternator : float
-        Mechanical work taken by friction and alternator.
+        Mechanical work taken by friction and alternator [J].
     electrical : float
-        Electrical energy delivered.
+        Electrical energy delivered [J].
     stored : float
-        Increase of the energy in springs and gas (there is no kinetic energy at dead centres).
+        Increase of the energy in springs and gas [J] (there is no kinetic energy at dead centres).
     stored_fuel : float
-        Increase of the fuel in the chambers, by its lower heating value.
+        Increase of the fuel in the chambers, by its lower heating value [J].
     residual : float
-        ``released + port_work - heat_transfer - exhaust - friction - alternator - stored``.
+        ``released + port_work - heat_transfer - exhaust - friction - alternator - stored`` [J].
     """
 
     fuel: float

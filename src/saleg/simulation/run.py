@@ -38,10 +38,14 @@ class Run:
         Time simulated [s].
     strokes : ndarray
         One record per stroke (see :mod:`saleg.kernel.layout`); read-only.
+    event_rows, history_rows : ndarray
+        Records of events and steps, read-only; what `events` and `history` show as tables.
     evaluations, steps : int
         Right-hand sides evaluated and steps taken, events included.
     settings : dict
         How the run was integrated.
+    replay : callable, optional
+        Integrates the last cycle again, for `orbit`.
     """
 
     engine: Engine

@@ -194,7 +194,7 @@ def branch(
         Value to go towards, in its SI unit. The branch ends when it gets there, when it comes back
         through a fold to where it began, or when the orbit is lost.
     step : float, optional
-        Longest step in the parameter; a fortieth of the way unless given.
+        Longest step in the parameter, in its SI unit; a fortieth of the way unless given.
     max_points : int
         Points after which it ends.
 

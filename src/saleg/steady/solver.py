@@ -110,6 +110,10 @@ class SteadyState:
     mirrored : bool
         Whether the second stroke is known to be the mirror image of the first: found by the map of
         half a cycle. A symmetric engine may also run on an orbit that is not.
+    replay : callable, optional
+        Integrates the cycle again, for `orbit`.
+    fallback : Run, optional
+        Simulation of an engine without a steady state.
     """
 
     engine: Engine
@@ -231,7 +235,7 @@ def steady_state(
     ----------
     engine : Engine
     rtol : float
-        Tolerance of the integrator, and of the state after a return.
+        Tolerance of the integrator, and of the state after a return [-].
     max_maps : int
         Maps to try before the other methods take over.
     effort : Effort

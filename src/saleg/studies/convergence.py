@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.checks import POSITIVE, SERIES, a, checked, each, whole
+from saleg.checks import POSITIVE, SERIES, Check, a, checked, each, whole
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine, check_engine
 from saleg.errors import SalegError, shown
@@ -65,6 +65,8 @@ class StudyError(SalegError, ValueError):
 
 
 ORDERS = each(whole(1), "whole numbers")
+#: Of numbers that are checked one by one, where each is used.
+LIST = each(Check(lambda item: item, ""), "numbers")
 
 
 @checked(engine=a(Engine), steps=SERIES, duration=POSITIVE)
@@ -235,7 +237,7 @@ def tolerance_study(
     return _study(simulate, engine, ["rtol"], [(given, duration, given) for given in settings])
 
 
-@checked(engine=a(Engine), steps=SERIES, delays=each(whole(0), "whole numbers"), duration=POSITIVE)
+@checked(engine=a(Engine), steps=LIST, delays=LIST, duration=POSITIVE)
 def delay_study(
     engine: Engine,
     steps: Sequence[float] = (1e-6, 2e-6, 5e-6, 1e-5),

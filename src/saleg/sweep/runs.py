@@ -66,7 +66,7 @@ def run(
         Points sent to a worker at a time; 32 to 128 unless given, so that no worker waits, and 32
         with a folder or warm starts.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     warm : bool

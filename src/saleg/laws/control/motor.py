@@ -34,13 +34,13 @@ class ResonanceSearch(MotorControl):
         K_i [Hz/s].
     literal_phase : float
         0 to integrate the frequency to the motor's angle, as an inverter does; 1 for the force
-        ``sin(2 pi f t)`` with the present f, whose angle jumps with every change of f.
+        ``sin(2 pi f t)`` with the present f, whose angle jumps with every change of f [-].
     keeps_integral : float
         1 to go on from the integral reached when the motor comes back after the engine was fired,
-        0 to begin again at the base frequency.
+        0 to begin again at the base frequency [-].
     keeps_phase : float
         1 to go on with the angle the motor would have reached meanwhile, 0 to begin in phase with
-        the motion: at zero force, pushing along. Without effect on the literal phase.
+        the motion: at zero force, pushing along. Without effect on the literal phase [-].
     """
 
     base_frequency: float = quantity("Hz", default=30.0, low=0, high=1e4, usual=FREQUENCY)

@@ -20,7 +20,17 @@ if TYPE_CHECKING:
 
 
 class Axis(NamedTuple):
-    """An axis of a map: a figure, its range and how many cells that has."""
+    """An axis of a map: a figure, its range and how many cells that has.
+
+    Attributes
+    ----------
+    figure : str
+        Column of the table.
+    low, high : float
+        Ends of the range, in the SI unit of the figure.
+    cells : int
+        Number of cells.
+    """
 
     figure: str
     low: float
@@ -58,7 +68,7 @@ class Archive(Method):
         Random designs to begin with.
     step, along : float
         A child is an elite moved by a normal deviate of `step` in every parameter and of `along`
-        times the difference to another elite.
+        times the difference to another elite [-].
 
     References
     ----------

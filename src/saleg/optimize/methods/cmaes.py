@@ -27,7 +27,7 @@ class CMAES(Method):
     size : int
         Designs of a generation.
     step : float
-        First standard deviation over the range of each parameter.
+        First standard deviation over the range of each parameter [-].
     sample : int
         Random designs to begin with where none are given.
 

@@ -38,7 +38,7 @@ class DifferentialEvolution(Method):
     mutation : (float, float)
         Range of the factor of differences, drawn anew for every generation.
     recombination : float
-        Probability that a parameter is that of the mutant.
+        Probability that a parameter is that of the mutant [-].
 
     References
     ----------

@@ -27,15 +27,15 @@ class GeneticAlgorithm(Method):
     size : int
         Individuals in a population.
     mutation, crossover : float
-        Probability that an individual has a child by mutation, and one by crossover.
+        Probability that an individual has a child by mutation, and one by crossover [-].
     generations : int
         Generations after the first population.
     stop : float
-        Fitness of the best beyond which the search ends; infinite for none.
+        Fitness of the best beyond which the search ends [-]; infinite for none.
     changed : float
-        Share of the genes a mutation changes (script).
+        Share of the genes a mutation changes (script) [-].
     deviation : float
-        Standard deviation of a changed gene over its range (script: 1/15), before it is clipped.
+        Standard deviation of a changed gene over its range [-] (script: 1/15), before clipping.
 
     Notes
     -----

@@ -92,7 +92,16 @@ def _designed(design: Design) -> Run:
 
 @checked(run=a(Run))
 def is_stable(run: Run) -> bool:
-    """Whether a run reached a steady state in which the engine delivers power."""
+    """Whether a run reached a steady state in which the engine delivers power.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    bool
+    """
     return run.status is Status.STEADY
 
 

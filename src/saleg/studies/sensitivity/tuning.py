@@ -27,13 +27,33 @@ class TuningError(SalegError, ArithmeticError):
 
 @checked(run=a(Run))
 def heat_transfer_share(run: Run) -> float:
-    """Heat lost to the walls in the last cycle over the fresh fuel energy [-]."""
+    """Heat lost to the walls in the last cycle over the fresh fuel energy [-].
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    float
+        NaN without fuel.
+    """
     return run.energy.heat_transfer / run.energy.fuel if _burns(run) and run.energy else math.nan
 
 
 @checked(run=a(Run))
 def friction_work(run: Run) -> float:
-    """Work of friction in the last cycle [J]."""
+    """Work of friction in the last cycle [J].
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    float
+        NaN without a full cycle.
+    """
     return run.energy.friction if run.energy else math.nan
 
 
@@ -56,7 +76,7 @@ def tune(engine: Subject, path: str, figure: Callable[[Run], float], wanted: flo
     figure : callable
         From a :class:`saleg.Run` to the figure, such as :func:`heat_transfer_share`.
     wanted : float
-        What the figure is to be.
+        What the figure is to be, in its SI unit.
 
     Returns
     -------
