@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg.compiler import search
 from saleg.compiler.compiled_engine import check_methods, numbers_of_rows
 from saleg.engine import BounceChamber, Engine
 from saleg.engine.columns import Rows, is_sound
@@ -126,7 +127,7 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
 def lots_to_search(rows: Rows) -> list[tuple[Rows, bool]]:
     """The valid engines that have a return map, and whether it is that of half a cycle."""
     rows = rows.some(is_sound(rows))
-    if not rows.count or not _can_be_searched(rows.row(0)):
+    if not rows.count or not search.stands_alone() or not _can_be_searched(rows.row(0)):
         return []
     symmetric = _are_symmetric(rows)
     lots = [(rows.some(symmetric == mirrored), mirrored) for mirrored in (True, False)]
