@@ -27,6 +27,7 @@ from typing import Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
 
+from saleg.columns import Column
 from saleg.errors import Problem, WrongArguments
 from saleg.quantities import Limits, as_float, is_whole
 
@@ -125,13 +126,14 @@ def number(
 def numbers(low: float = -math.inf, *, open_low: bool = False) -> Check:
     """Check for one finite number of a range, or an array of them."""
     one = number(low, open_low=open_low)
+    limits = Limits("-", low, math.inf, open_low, False)
 
     def read(value: Any) -> Any:
         found = one.read(value)
         if found is not None:
             return found
         array = as_array(value)
-        good = array is not None and all(one.read(item) is not None for item in array.ravel())
+        good = array is not None and (np.isfinite(array) & limits.admits(array)).all()
         return array if good else None
 
     return Check(read, f"{one.wanted}, or an array of such numbers")
@@ -155,6 +157,8 @@ def a(*kinds: Any, wanted: str = "") -> Check:
 
 def as_array(value: Any) -> np.ndarray | None:
     """Numbers in lists, arrays or columns as an array of floats; None if anything else is there."""
+    if isinstance(value, Column):
+        return value
     try:
         given = np.asarray(value)
     except (TypeError, ValueError):

@@ -183,11 +183,11 @@ class Limits(NamedTuple):
         allowed = str(self)
         return " ".join(f"must be {kind or (not allowed) * 'a finite number'} {allowed}".split())
 
-    def admits(self, value: float) -> bool:
-        """Whether a finite number lies in the range."""
-        over = value > self.low or (value == self.low and not self.open_low)
-        under = value < self.high or (value == self.high and not self.open_high)
-        return over and under
+    def admits(self, value: Any) -> Any:
+        """Whether a finite number, or each of an array, lies in the range."""
+        over = (value > self.low) | ((value == self.low) & (not self.open_low))
+        under = (value < self.high) | ((value == self.high) & (not self.open_high))
+        return over & under
 
 
 def _checked_unit(unit: Any) -> str:
@@ -308,11 +308,13 @@ def _is_finite(value: Any) -> bool:
 
 #: Units a number may have been given in by mistake, the likeliest first: factor and offset to SI.
 GIVEN_IN = {
-    "m": (("mm", 1e-3, 0.0), ("cm", 1e-2, 0.0)),
+    "m": (("mm", 1e-3, 0.0), ("cm", 1e-2, 0.0), ("inch", 0.0254, 0.0)),
     "kg": (("g", 1e-3, 0.0),),
     "s": (("ms", 1e-3, 0.0), ("us", 1e-6, 0.0)),
     "K": (("degC", 1.0, 273.15),),
     "Pa": (("bar", 1e5, 0.0), ("kPa", 1e3, 0.0), ("MPa", 1e6, 0.0)),
+    "N": (("kN", 1e3, 0.0),),
+    "N s/m": (("kN s/m", 1e3, 0.0),),
     "N/m": (("kN/m", 1e3, 0.0), ("N/mm", 1e3, 0.0)),
     "J/kg": (("MJ/kg", 1e6, 0.0), ("kJ/kg", 1e3, 0.0)),
     "H": (("mH", 1e-3, 0.0), ("uH", 1e-6, 0.0)),
@@ -367,9 +369,10 @@ def unusual_number(name: str, value: float, unit: str, usual: tuple[float, float
     return str(Problem(name, value, unit, _usual_text(value, limits)))
 
 
-def is_usual(value: float, limits: Limits) -> bool:
-    """Whether a number is in its usual range; 0 is, and so is any without one."""
-    return value == 0.0 or limits.usual is None or limits.usual[0] <= value <= limits.usual[1]
+def is_usual(value: Any, limits: Limits) -> Any:
+    """Whether a number, or each of an array, is usual: 0 is, and any without a usual range."""
+    low, high = limits.usual or (-math.inf, math.inf)
+    return (value == 0.0) | ((low <= value) & (value <= high))
 
 
 @lru_cache(maxsize=1024)

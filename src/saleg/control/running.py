@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from saleg.batch.many import RUN_UNITS, batch_table, run_row
-from saleg.batch.table import CHUNK, Row
+from saleg.batch.table import CHUNK, Row, rows_of
 from saleg.checks import NUMBER, a, checked
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
@@ -281,7 +281,9 @@ def simulate_many(
     if settings.get("keep_cycles") is not None:
         raise SettingsError("keep_cycles: the table looks back to the start; leave it out")
     row_of: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
-    return batch_table(row_of, pairs, CONTROL_UNITS, _kernel_of, executor, workers, chunk)
+    return batch_table(
+        partial(rows_of, row_of), pairs, CONTROL_UNITS, _kernel_of, executor, workers, chunk
+    )
 
 
 def _kernel_of(pair: tuple[Engine, Controller]) -> Any:

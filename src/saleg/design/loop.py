@@ -209,7 +209,7 @@ def check_design(design: Any) -> None:
 
 
 def _mass(design: Design, operation: Operation) -> float:
-    return float(design.masses.masses(design.parameters, operation).total)
+    return design.masses.masses(design.parameters, operation).total
 
 
 def _charts(
@@ -371,10 +371,16 @@ def _set_mass(state: State, design: Design, operation: Operation) -> None:
 
 
 def _set_law(state: State, design: Design, operation: Operation) -> None:
-    """Tell the map how the mass follows from stroke S and work W of a stroke.
+    """Tell the map how the mass follows from stroke and work, anew after every orbit."""
+    for name, value in zip(LAW, mass_law(design, operation), strict=True):
+        state.engine[name] = value
+
+
+def mass_law(design: Design, operation: Operation) -> tuple[float, float, float]:
+    """Numbers m_0, m_S and m_W of the mass as it follows from stroke S and work W of a stroke.
 
     ``m_0 + m_S S + m_W W^2 / S^3`` is what Eq. 60-67 come to; other mass models are given its
-    tangent at an operation, anew after every orbit.
+    tangent at an operation.
     """
     S, W = operation.stroke, 0.5 * operation.power / operation.frequency
     total = _mass(design, operation)
@@ -386,9 +392,7 @@ def _set_law(state: State, design: Design, operation: Operation) -> None:
     per_work = by_work / (load * ((1.0 + STEP) ** 2 - 1.0)) if load > 0.0 else 0.0
     per_stroke = by_stroke - per_work * load * ((1.0 + STEP) ** -3 - 1.0) / (STEP * S)
     fixed = total - per_stroke * S - per_work * load
-    values = (fixed, per_stroke, per_work) if fixed > 0.0 else (total, 0.0, 0.0)
-    for name, value in zip(LAW, values, strict=True):
-        state.engine[name] = value
+    return (fixed, per_stroke, per_work) if fixed > 0.0 else (total, 0.0, 0.0)
 
 
 def _give_mass(chart: ReturnMap) -> None:
@@ -399,8 +403,13 @@ def _give_mass(chart: ReturnMap) -> None:
 
 
 def _closed_message(state: DesignedState) -> DesignedState:
-    state.message += f"; the mass of the components is that of the orbit to {state.mass_error:.1e}"
+    state.message += closed_message(state.mass_error)
     return state
+
+
+def closed_message(mass_error: float) -> str:
+    """How well the mass of the components is that of the orbit."""
+    return f"; the mass of the components is that of the orbit to {mass_error:.1e}"
 
 
 def _continued_message(state: DesignedState) -> DesignedState:

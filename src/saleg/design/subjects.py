@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, Protocol
 
+import numpy as np
+
 from saleg.batch.identity import described, own_code
-from saleg.batch.many import STABILITY_UNITS, steady_row
+from saleg.batch.many import STABILITY_UNITS, steady_columns, steady_row
 from saleg.batch.points import Evaluated, Solver, Values, refuse_parts
-from saleg.batch.table import Row
+from saleg.batch.table import Columns, Row
 from saleg.design.designs import Design
 from saleg.design.many import EvaluatedDesign
 from saleg.engine import Engine
+from saleg.engine.columns import rows_of_columns
 from saleg.engine.paths import unit_of
 from saleg.errors import SweepError, UnknownPath, shown
 from saleg.steady.solver import Effort, found_steady_state
@@ -88,12 +91,36 @@ class EngineSubject:
         """What makes a row of a point, from the engine's own starts."""
         if warm:
             raise SweepError("warm starts are for designs; an engine begins with its own starts")
+        if multipliers:
+            return EngineSolver(self.engine, rtol, effort, multipliers)
+        return EngineSolverOfColumns(self.engine, rtol, effort)
 
-        def row(values: Values) -> Row:
-            found = found_steady_state(self.engine.replace(**values), rtol, effort=effort)
-            return steady_row(found, multipliers)
 
-        return row
+@dataclasses.dataclass(frozen=True)
+class EngineSolver:
+    """Rows of an engine with some numbers replaced, one after the other."""
+
+    engine: Engine
+    rtol: float
+    effort: Effort
+    multipliers: bool = False
+
+    def __call__(self, values: Values) -> Row:
+        """Row of a point."""
+        found = found_steady_state(self.engine.replace(**values), self.rtol, effort=self.effort)
+        return steady_row(found, self.multipliers)
+
+
+class EngineSolverOfColumns(EngineSolver):
+    """The same without their stability, of many points at once."""
+
+    def columns(self, points: Sequence[Values]) -> Columns:
+        """Rows of some points, column by column."""
+        columns = {name: np.array([values[name] for values in points]) for name in points[0]}
+        lots = rows_of_columns(self.engine, columns)
+        return steady_columns(
+            lots, lambda place: self(points[place]), len(points), self.rtol, self.effort
+        )
 
 
 def _laws(engine: Engine) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
+from saleg.columns import least_of
 from saleg.engine import paths
 from saleg.engine.chambers import Chamber, CombustionChamber, Fuel, Intake, Translator
 from saleg.engine.start import CompressedCharge, Start
@@ -123,9 +124,9 @@ class Engine:
         left, right = self.left.half_stroke, self.right.half_stroke
         burns = [isinstance(chamber, CombustionChamber) for chamber in self.chambers]
         if burns == [True, False]:
-            return left + min(left, right)
+            return left + least_of(left, right)
         if burns == [False, True]:
-            return min(left, right) + right
+            return least_of(left, right) + right
         return left + right
 
     def get(self, path: str) -> Any:
@@ -306,6 +307,16 @@ def _kind_problem(value: Any, kind: type, path: str) -> list[Problem]:
     if isinstance(value, kind):
         return []
     return [Problem(path, value, "-", f"must be a {kind.__name__}")]
+
+
+def lengths_fit(engine: Engine) -> Any:
+    """Whether no lengths contradict each other; of an engine of columns, in each row."""
+    most = engine.left.half_stroke + engine.right.half_stroke
+    fit = True
+    for chamber in engine.chambers:
+        gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
+        fit = fit & (gap < chamber.half_stroke) & (gap < port) & (port < most)
+    return fit
 
 
 def _geometry_problems(engine: Engine) -> list[Problem]:

@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from saleg.columns import exp, log, sqrt
 from saleg.engine.chambers import Chamber
 from saleg.laws.arguments import Motion
 from saleg.quantities import Quantities, quantity
@@ -114,7 +115,7 @@ class CompressedCharge(Start):
             contents(engine.right, -x, burning=lit and side == 1),
         )
         energy = _stored_energy(engine, charged, x, held[side], lit)
-        speed = 0.75 * math.sqrt(2.0 * energy / engine.translator.mass)
+        speed = 0.75 * sqrt(2.0 * energy / engine.translator.mass)
         return Initial(x, 0.0, True, 2.0 * depth, speed, *held)
 
 
@@ -207,15 +208,15 @@ def adiabatic_rise(chamber: Any, squeeze: float) -> float:
     """
     gamma = chamber.gas_properties.gamma
     filled = chamber.reference_state.temperature
-    ln_T, steps = math.log(filled), 64
-    h = math.log(squeeze) / steps
+    ln_T, steps = log(filled), 64
+    h = log(squeeze) / steps
     for _ in range(steps):
-        k1 = gamma(math.exp(ln_T)) - 1.0
-        k2 = gamma(math.exp(ln_T + 0.5 * h * k1)) - 1.0
-        k3 = gamma(math.exp(ln_T + 0.5 * h * k2)) - 1.0
-        k4 = gamma(math.exp(ln_T + h * k3)) - 1.0
+        k1 = gamma(exp(ln_T)) - 1.0
+        k2 = gamma(exp(ln_T + 0.5 * h * k1)) - 1.0
+        k3 = gamma(exp(ln_T + 0.5 * h * k2)) - 1.0
+        k4 = gamma(exp(ln_T + h * k3)) - 1.0
         ln_T += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    return float(squeeze * math.exp(ln_T) / filled)
+    return squeeze * exp(ln_T) / filled
 
 
 def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
@@ -254,7 +255,7 @@ def charge_mass(chamber: Any) -> float:
     """
     full, area = chamber.reference_state, math.pi * chamber.bore**2 / 4.0
     density = full.pressure / (chamber.gas_properties.gas_constant * full.temperature)
-    return float(density * area * full.clearance)
+    return density * area * full.clearance
 
 
 def _resting(chamber: Any) -> Contents:

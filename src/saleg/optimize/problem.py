@@ -15,7 +15,7 @@ import numpy as np
 
 from saleg.batch.identity import described
 from saleg.batch.points import Evaluation
-from saleg.batch.table import CHUNK, MISSING, kind_of
+from saleg.batch.table import MISSING, MOST_TOGETHER, PIECES, kind_of
 from saleg.checks import as_array
 from saleg.design.designs import Design
 from saleg.design.score import Score
@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
 #: Fitness of a design without a steady state, and from where downwards those that miss limits lie.
 FAILED, MISSES = -2e9, -1e9
-#: Pieces of work for each worker in a generation: so many that none waits long for the last one.
-PIECES = 16
 #: Columns of a table that say whether an orbit is stable.
 STABILITY = ("stable", "kind", "largest_multiplier", "beat_period")
 
@@ -297,7 +295,7 @@ def evaluated(
 
     solver = partial(problem.subject.solver, problem.rtol, multipliers, False, problem.effort)
     at_once = PIECES * (workers or os.cpu_count() or 1)
-    chunk = min(max(math.ceil(len(points) / at_once), 1), CHUNK)
+    chunk = min(max(math.ceil(len(points) / at_once), 1), MOST_TOGETHER)
     evaluation = Evaluation(points, problem.subject, solver, chunk, executor, workers)
     rows = evaluation.table(dict(evaluation.parts()))
     columns = {name: points[name].to_numpy(dtype=float) for name in points}

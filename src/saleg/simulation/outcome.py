@@ -10,6 +10,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.simulation.faulty_law import fault_near
+from saleg.simulation.indicators import both, summed
 from saleg.simulation.initial_state import State
 from saleg.simulation.performance import EnergyBalance
 from saleg.status import Status
@@ -91,7 +92,7 @@ def _stands_still(state: State) -> bool:
     return waited > STILL_PERIODS * period and coming < STILL * float(E["maximum_stroke"])
 
 
-def imbalance(before: Any, strokes: np.ndarray) -> float:
+def imbalance(before: Any, strokes: np.ndarray) -> Any:
     """Residual of an energy balance over its largest term, or over what moves to and fro.
 
     The latter is the work of the gas in a chamber in a stroke, or the energy in the springs: all
@@ -102,12 +103,13 @@ def imbalance(before: Any, strokes: np.ndarray) -> float:
     before : row of STROKE_RECORD
         The stroke before.
     strokes : ndarray of STROKE_RECORD
-        Consecutive strokes.
+        Consecutive strokes; of many runs each in a row, as :meth:`.EnergyBalance.between` has them.
     """
     balance = EnergyBalance.between(before, strokes)
-    moved = float(np.abs(strokes["gas_work"]).max()), float(np.abs(strokes["spring_energy"]).max())
-    largest = max(balance.largest_term, *moved)
-    return abs(balance.residual) / largest if largest > 0.0 else 0.0
+    moved = np.abs(strokes["gas_work"]).max(axis=(-2, -1))
+    held = np.abs(strokes["spring_energy"]).max(axis=-1)
+    largest = np.maximum(balance.largest_term, np.maximum(moved, held))
+    return abs(balance.residual) / np.maximum(largest, 1e-300)
 
 
 _STALL_HINT = "try a smaller load, more fuel, or another start"
@@ -137,11 +139,12 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     return Status.COMPLETED, f"ran to t = {t:.6g} s, {how}"
 
 
-def is_dead(engine: Engine, cycle: np.ndarray) -> bool:
-    """Whether an engine with cylinders neither fires in a cycle nor is motored."""
-    driven = float(cycle["alternator_work"].sum()) < 0.0
-    heat, work = float(cycle["heat_released"].sum()), float(np.abs(cycle["gas_work"]).max())
-    return engine.has_combustion and not driven and not heat > REMNANT * work
+def is_dead(engine: Engine, cycle: np.ndarray) -> Any:
+    """Whether an engine with cylinders neither fires in a cycle nor is motored; each of many."""
+    all_of = summed(cycle)
+    driven, heat = all_of["alternator_work"] < 0.0, both(all_of["heat_released"])
+    work = np.abs(cycle["gas_work"]).max(axis=(-2, -1))
+    return engine.has_combustion & ~driven & ~(heat > REMNANT * work)
 
 
 def delivers_power(cycle: np.ndarray) -> bool:
@@ -149,10 +152,11 @@ def delivers_power(cycle: np.ndarray) -> bool:
     return float(cycle["electrical_energy"].sum()) > 1e-9 * float(np.abs(cycle["gas_work"]).max())
 
 
-def is_idling(engine: Engine, cycle: np.ndarray) -> bool:
-    """Whether an engine fires in a cycle but delivers no power."""
-    heat = float(cycle["heat_released"].sum())
-    return heat > 0.0 and not float(cycle["electrical_energy"].sum()) > 1e-9 * heat
+def is_idling(engine: Engine, cycle: np.ndarray) -> Any:
+    """Whether an engine fires in a cycle but delivers no power; each of many."""
+    all_of = summed(cycle)
+    heat = both(all_of["heat_released"])
+    return (heat > 0.0) & ~(all_of["electrical_energy"] > 1e-9 * heat)
 
 
 def settled(engine: Engine, strokes: np.ndarray) -> tuple[bool, str]:

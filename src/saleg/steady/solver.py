@@ -169,7 +169,7 @@ class SteadyState:
             raise NoSteadyState(f"no steady state to draw: {self.message}")
         return Plots(self.orbit)
 
-    @property
+    @cached_property
     def quick_performance(self) -> Performance:
         """The same without what needs the history of the cycle: the adverse work is NaN."""
         if not len(self.strokes):
@@ -390,7 +390,7 @@ def starts(engine: Engine) -> Iterator[Start]:
     """
     left_first = engine.is_mirrored or fuel_energy(engine.left) >= fuel_energy(engine.right)
     side = -1.0 if left_first else 1.0
-    depth = float(getattr(engine.alternator, "target_stroke", 0.9))
+    depth = getattr(engine.alternator, "target_stroke", 0.9)
     yield CompressedCharge(position=side * min(max(depth, 0.5), 0.95), burning=1.0)
     usual = CompressedCharge()
     if engine.start not in (usual, replace(usual, position=-usual.position)):
@@ -402,7 +402,7 @@ def fuel_energy(chamber: Chamber) -> float:
     """Lower heating value of the fuel in a charge [J]; 0 for a chamber without fuel."""
     if not isinstance(chamber, CombustionChamber):
         return 0.0
-    return standard_charge(chamber)[1] * float(chamber.fuel.lower_heating_value)
+    return standard_charge(chamber)[1] * chamber.fuel.lower_heating_value
 
 
 def converged(found: Search, tolerance: float) -> bool:
@@ -418,12 +418,8 @@ def result_of(
     engine, strokes = return_map.engine, return_map.strokes[:2].copy()
     snapshots = Snapshots(*(part.copy() for part in return_map.snapshots))
     settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
-    status, what = _kind(engine, strokes, rtol)
-    cycle = "half-cycle" if return_map.mirrored else "full-cycle"
-    message = (
-        f"{what}fixed point of the {cycle} map, found in {spent} half cycles; "
-        f"a whole cycle misses its start by {residual:.1e}"
-    )
+    status, what = kind_of(engine, strokes, rtol)
+    message = what + fixed_point_message(return_map.mirrored, spent, residual)
     return SteadyState(
         engine=engine,
         status=status,
@@ -438,10 +434,24 @@ def result_of(
     )
 
 
-def _kind(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, str]:
+def fixed_point_message(mirrored: bool, spent: int, residual: float) -> str:
+    """How a fixed point was found."""
+    cycle = "half-cycle" if mirrored else "full-cycle"
+    return (
+        f"fixed point of the {cycle} map, found in {spent} half cycles; "
+        f"a whole cycle misses its start by {residual:.1e}"
+    )
+
+
+def max_imbalance(rtol: float) -> float:
+    """Imbalance of a cycle's energy beyond which a fixed point does not count."""
+    return min(max(ENERGY * rtol, MIN_IMBALANCE), MAX_IMBALANCE)
+
+
+def kind_of(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers, and that as the beginning of a message."""
     off = imbalance(strokes[-1], strokes)
-    if off > min(max(ENERGY * rtol, MIN_IMBALANCE), MAX_IMBALANCE):
+    if off > max_imbalance(rtol):
         return Status.STEP_FAILURE, (
             f"the energy balance is off by {100.0 * off:.2g} % of its largest term; try a smaller "
             "rtol, or check that the energies of the laws belong to their forces: "
