@@ -308,11 +308,13 @@ def _is_finite(value: Any) -> bool:
 
 #: Units a number may have been given in by mistake, the likeliest first: factor and offset to SI.
 GIVEN_IN = {
-    "m": (("mm", 1e-3, 0.0), ("cm", 1e-2, 0.0)),
+    "m": (("mm", 1e-3, 0.0), ("cm", 1e-2, 0.0), ("inch", 0.0254, 0.0)),
     "kg": (("g", 1e-3, 0.0),),
     "s": (("ms", 1e-3, 0.0), ("us", 1e-6, 0.0)),
     "K": (("degC", 1.0, 273.15),),
     "Pa": (("bar", 1e5, 0.0), ("kPa", 1e3, 0.0), ("MPa", 1e6, 0.0)),
+    "N": (("kN", 1e3, 0.0),),
+    "N s/m": (("kN s/m", 1e3, 0.0),),
     "N/m": (("kN/m", 1e3, 0.0), ("N/mm", 1e3, 0.0)),
     "J/kg": (("MJ/kg", 1e6, 0.0), ("kJ/kg", 1e3, 0.0)),
     "H": (("mH", 1e-3, 0.0), ("uH", 1e-6, 0.0)),

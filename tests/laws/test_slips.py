@@ -168,7 +168,13 @@ def in_a_set(self, motion):
     return -motion.x if motion.direction in {-1.0, 1.0} else 0.0
 
 
+def in_a_list(self, motion):
+    a = [1.0, 2.0]
+    return -a[0] * motion.x
+
+
 SLIPS = [
+    (in_a_list, "uses a list; write a tuple"),
     (naming, "':='.*assign it on a line before"),
     (deleting, "deletes a name"),
     (gathering, "gathers values"),

@@ -199,6 +199,7 @@ def test_a_motored_engine_runs(base):
     assert (row.status, row.stable, row.kind) == ("steady", False, "")
 
 
+@pytest.mark.filterwarnings("ignore:unusual for an engine")
 def test_an_engine_that_lives_on_the_heat_of_its_walls_is_steady(base):
     """It was "stalled" with 900 W: it never fires, but what it delivers comes from the walls."""
     hot = base.replace(wall_temperature=2500.0, equivalence_ratio=0.0)
@@ -211,6 +212,7 @@ def test_an_engine_that_lives_on_the_heat_of_its_walls_is_steady(base):
     assert 0.0 < energy.alternator + energy.friction < -energy.heat_transfer
 
 
+@pytest.mark.filterwarnings("ignore:unusual for an engine")
 def test_an_overdamped_piston_is_stalled(base):
     """It creeps to its equilibrium: no dead centre ever comes."""
     engine = base.replace(**{"friction.coefficient": 5e4})
@@ -269,7 +271,7 @@ HOPELESS = (
     {"port_closing": 0.06},
     {"intake.temperature": 670.0},
     {"alternator.load_constant": 300.0},
-    {"friction.coefficient": 1e5},
+    {"friction.coefficient": 5e3},
     {"half_stroke": 0.3},
 )
 

@@ -217,6 +217,8 @@ def test_a_folder_made_before_digests_were_kept_is_read(tmp_path):
     folder, points = tmp_path / "s", sweep.grid(SMALL_SWEEP)
     table = sweep.run(points, folder=folder, multipliers=False)
     (folder / "results.sha256").unlink()
+    with pytest.raises(sweep.SweepError, match=r"results.sha256"):
+        sweep.load(folder)
     known = json.loads((folder / "sweep.json").read_text())
     del known["points_sha256"]
     (folder / "sweep.json").write_text(json.dumps(known))

@@ -10,7 +10,7 @@ from saleg.checks import NUMBER, POSITIVE, checked
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator
 from saleg.laws.interpolation import bilinear, next_point
-from saleg.laws.usual import FREQUENCY, LOAD_CONSTANT
+from saleg.laws.usual import FORCE, FREQUENCY, LENGTH, LOAD_CONSTANT
 from saleg.quantities import quantity, series
 
 
@@ -128,7 +128,7 @@ class ConstantForce(RegulatedAlternator):
 
     mirrors: ClassVar[bool] = True
 
-    amplitude: float = quantity("N", default=1000.0, low=0)
+    amplitude: float = quantity("N", default=1000.0, low=0, usual=FORCE)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
     def force(self, load_weight: float, motion: Motion) -> float:
@@ -161,8 +161,8 @@ class CosineForce(RegulatedAlternator):
 
     mirrors: ClassVar[bool] = True
 
-    amplitude: float = quantity("N", default=1500.0, low=0)
-    half_stroke: float = quantity("m", default=0.1, low=0, open_low=True)
+    amplitude: float = quantity("N", default=1500.0, low=0, usual=FORCE)
+    half_stroke: float = quantity("m", default=0.1, low=0, open_low=True, usual=LENGTH)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
     def force(self, load_weight: float, motion: Motion) -> float:
@@ -251,7 +251,7 @@ class FluxProfile(RegulatedAlternator):
 
     load_constant: float = quantity("N s/m", default=70.0, low=0, usual=LOAD_CONSTANT)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
-    wavelength: float = quantity("m", default=0.05, low=0, open_low=True)
+    wavelength: float = quantity("m", default=0.05, low=0, open_low=True, usual=LENGTH)
     cosines: tuple[float, ...] = series("-", default=(0.1,))
     sines: tuple[float, ...] = series("-", default=(0.0,))
     cogging: tuple[float, ...] = series("N", default=(0.0,))

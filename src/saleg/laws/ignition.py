@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import Ignition, Validity
 from saleg.laws.interpolation import interval, share
+from saleg.laws.usual import LENGTH
 from saleg.quantities import quantity, series
 
 #: Universal gas constant [cal/mol/K], and standard atmosphere [Pa].
@@ -151,7 +152,7 @@ class SparkAtClearance(Ignition):
         Clearance between crown and head at the spark [m].
     """
 
-    clearance: float = quantity("m", default=0.020, low=0)
+    clearance: float = quantity("m", default=0.020, low=0, usual=LENGTH)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: speed inward over the way to go."""

@@ -17,7 +17,7 @@ from saleg.errors import Problem as Wrong
 from saleg.errors import SalegWarning
 from saleg.laws.usual import POWER
 from saleg.optimize.methods import GeneticAlgorithm
-from saleg.optimize.problem import Problem
+from saleg.optimize.problem import InvalidProblem, Problem
 from saleg.quantities import unusual_number
 
 Bounds = Mapping[str, tuple[float, float]]
@@ -103,6 +103,9 @@ class Preset:
         odd = unusual_number("target_power", float(target_power or 0.0), "W", POWER)
         if odd:
             warnings.warn(f"unusual for an engine: {odd}", SalegWarning, stacklevel=2)
+        if bounds is not None and not isinstance(bounds, Mapping):
+            need = "must be a mapping of names to (lowest, highest)"
+            raise InvalidProblem([Wrong("bounds", bounds, "-", need)])
         return Problem({**self.box, **(bounds or {})}, score)
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from saleg.checks import POSITIVE, checked
 from saleg.errors import AxesError, shown
 
 if TYPE_CHECKING:
@@ -53,6 +54,7 @@ COINCIDING = {"left": CurveLook("-", 2.4, 1.7), "right": CurveLook((0, (4, 2)), 
 DOTTED: dict[str, Any] = {"left": (0, (1, 2.6)), "right": (1.8, (1, 2.6))}
 
 
+@checked(width=POSITIVE, height=POSITIVE)
 def new_figure(width: float = 6.4, height: float = 4.4) -> Figure:
     """Make an empty figure that needs no display.
 
