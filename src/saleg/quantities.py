@@ -318,6 +318,8 @@ GIVEN_IN = {
     "N/m": (("kN/m", 1e3, 0.0), ("N/mm", 1e3, 0.0)),
     "J/kg": (("MJ/kg", 1e6, 0.0), ("kJ/kg", 1e3, 0.0)),
     "H": (("mH", 1e-3, 0.0), ("uH", 1e-6, 0.0)),
+    "J/kg/K": (("kJ/kg/K", 1e3, 0.0),),
+    "cal/mol": (("kcal/mol", 1e3, 0.0), ("kJ/mol", 1e3 / 4.184, 0.0), ("J/mol", 1 / 4.184, 0.0)),
     "W": (("kW", 1e3, 0.0), ("MW", 1e6, 0.0)),
     "Hz": (("1/min", 1.0 / 60.0, 0.0),),
 }
@@ -343,9 +345,11 @@ def unusual(node: Any, path: str = "") -> list[Problem]:
     for name, limits in _with_usual_range(kind):
         value, where = getattr(node, name), f"{path}.{name}" if path else name
         if limits is None:
-            found.extend(unusual(value, where) if dataclasses.is_dataclass(value) else ())
+            parts = dataclasses.is_dataclass(value) and not isinstance(value, type)
+            found.extend(unusual(value, where) if parts else ())
             continue
-        numbers = value if isinstance(value, tuple) else (value,)
+        values = value if isinstance(value, tuple) else (value,)
+        numbers = [number for number in values if isinstance(number, (int, float))]
         odd = [number for number in numbers if not is_usual(number, limits)]
         # A slip of units is one of all numbers; 0 is the same in all.
         if odd and len(odd) == sum(number != 0.0 for number in numbers):

@@ -70,6 +70,34 @@ def test_a_sweep_killed_at_random_loses_nothing_it_reported(tmp_path):
         assert (folder / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
 
 
+def test_a_sweep_that_ends_at_any_of_its_writes_is_taken_up_again(tmp_path, monkeypatch):
+    """Digests and tables never disagree: inputs, description, parts, digest, results."""
+    from saleg.files import atomic
+
+    points, written = sweep.grid(SMALL_SWEEP), []
+
+    def ends_before(last):
+        def write(path, text):
+            if len(written) == last:
+                raise KeyboardInterrupt
+            written.append(path.name)
+            atomic.write_text(path, text)
+
+        return write
+
+    whole = sweep.run(points, chunk=3, multipliers=False)
+    for last in range(6):
+        folder = tmp_path / str(last)
+        written.clear()
+        with monkeypatch.context() as patched:
+            patched.setattr("saleg.sweep.store.write_text", ends_before(last))
+            with pytest.raises(KeyboardInterrupt):
+                sweep.run(points, folder=folder, chunk=3, multipliers=False, workers=1)
+        assert sweep.run(points, folder=folder, chunk=3, multipliers=False).equals(whole)
+        assert sweep.load(folder).equals(whole)
+    assert written[-1] == "results.sha256"
+
+
 def test_a_folder_says_what_it_holds_and_takes_no_other_sweep(tmp_path):
     folder = tmp_path / "s"
     points = sweep.grid(SMALL_SWEEP)

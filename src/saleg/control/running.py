@@ -14,7 +14,7 @@ from saleg.batch.table import CHUNK, Row, rows_of
 from saleg.checks import NUMBER, a, checked
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
-from saleg.control.plant import InPython, Plant, course_of, give
+from saleg.control.plant import InPython, Plant, course_of, give, plant_course
 from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
@@ -22,7 +22,7 @@ from saleg.errors import ControllerError, shown
 from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import ActuatorLaw
-from saleg.quantities import as_float
+from saleg.quantities import as_float, unusual
 from saleg.simulation.indicators import beyond_ports
 from saleg.simulation.run import Run
 from saleg.simulation.settings import SettingsError
@@ -121,20 +121,22 @@ def simulate(
         raise SettingsError("actuators: a Controller has its own; replace those")
     if compiled and isinstance(controller, Controller):
         run = _compiled(engine, controller, duration, settings)
-        warn_of_unusual(engine, controller)
+        warn_of_unusual(engine, controller=controller)
         return run
     if sample_time is not None:
         sample_time = _checked_sample_time(sample_time, duration)
     acting: Acts
+    limits: ActuatorLaw | None
     if isinstance(controller, Controller):
         controller.validate()
-        acting, actuators = InPython(controller), controller.actuators
+        acting, limits = InPython(controller), controller.actuators
     else:
-        acting = controller
+        acting, limits = controller, actuators
     if not callable(getattr(acting, "act", None)):
         raise SettingsError(f"{type(controller).__name__} has no method act(signals)")
-    plant = Plant(engine, duration, actuators=actuators, **settings)
+    plant = Plant._again(plant_course(engine, duration, limits, settings))
     measurement = Measurement(sensors or Sensors(), engine)
+    warn_of_unusual(engine, controller=controller, actuators=actuators, sensors=sensors)
     return _in_python(plant, acting, measurement if sensors else None, sample_time)
 
 
@@ -295,8 +297,11 @@ def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any
     """Row of a run under a controller."""
     run = _compiled(pair[0], pair[1], duration, settings)
     beyond = beyond_ports(run.engine, run.strokes)
+    row = run_row(run)
+    odd = [f"unusual: {problem}" for problem in unusual(pair[1], "controller")]
     return {
-        **run_row(run),
+        **row,
+        "message": "; ".join([str(row["message"]), *odd]),
         "fired_at": fired_at(run),
         "motor_returns": float(motor_returns(run)),
         "strokes": float(len(run.strokes)),

@@ -25,7 +25,7 @@ from saleg.laws.base import (
     Law,
     Misfires,
 )
-from saleg.laws.usual import LENGTH
+from saleg.laws.usual import GAP, LENGTH
 from saleg.quantities import Quantities, quantity
 
 #: Ranges of what has been built, from a bore of 3 mm to ship engines and gas springs; a value
@@ -122,7 +122,7 @@ class Chamber(Quantities):
     wall_temperature: float = quantity(
         "K", default=550.0, low=100.0, high=3000.0, usual=TEMPERATURE
     )
-    head_gap: float = quantity("m", default=1e-4, low=0, open_low=True)
+    head_gap: float = quantity("m", default=1e-4, low=0, open_low=True, usual=GAP)
 
     @property
     def area(self) -> float:

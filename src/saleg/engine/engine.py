@@ -265,20 +265,21 @@ def check_engine(engine: Any) -> None:
     engine.validate()
 
 
-def warn_of_unusual(engine: Engine, controller: Any = None, frames: int = 1) -> None:
+def warn_of_unusual(engine: Engine, *, frames: int = 1, **others: Any) -> None:
     """Warn once of all numbers of a valid engine that are far from what has been built.
 
     Parameters
     ----------
     engine : Engine
-    controller : Controller, optional
-        Who commands it, if that is made of numbers.
     frames : int
         Functions between this one and the user's line, which the warning names.
+    **others
+        What else the user gave, by name; of it, dataclasses are looked at.
     """
     found = engine.unusual()
-    if is_dataclass(controller):
-        found += unusual(controller, "controller")
+    for name, given in others.items():
+        if is_dataclass(given) and not isinstance(given, type):
+            found += unusual(given, name)
     if found:
         lines = "\n".join(f"  {problem}" for problem in found)
         warnings.warn(f"unusual for an engine:\n{lines}", SalegWarning, stacklevel=2 + frames)

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from saleg.columns import exp, log, sqrt
 from saleg.engine.chambers import Chamber
 from saleg.laws.arguments import Motion
+from saleg.laws.usual import FREQUENCY
 from saleg.quantities import Quantities, quantity
 
 #: Exponent with which a start guesses the state of a charge compressed from port closing.
@@ -135,7 +136,7 @@ class MidpointVelocity(Start):
         Peak velocity over that of a harmonic motion, negative to the left [-].
     """
 
-    frequency: float = quantity("Hz", default=45.0, low=0, open_low=True)
+    frequency: float = quantity("Hz", default=45.0, low=0, open_low=True, usual=FREQUENCY)
     stroke: float = quantity("-", default=0.9, low=0, high=1, open_low=True)
     factor: float = quantity("-", default=1.15)
 

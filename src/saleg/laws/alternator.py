@@ -10,7 +10,7 @@ from saleg.checks import NUMBER, POSITIVE, checked
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator
 from saleg.laws.interpolation import bilinear, next_point
-from saleg.laws.usual import FORCE, FREQUENCY, LENGTH, LOAD_CONSTANT
+from saleg.laws.usual import FORCE, FREQUENCY, LENGTH, LOAD_CONSTANT, SMALL_FORCE
 from saleg.quantities import quantity, series
 
 
@@ -348,7 +348,7 @@ class SinusoidalMotor(Alternator):
         Of the conversion, either way [-].
     """
 
-    amplitude: float = quantity("N", default=264.0, low=0)
+    amplitude: float = quantity("N", default=264.0, low=0, usual=SMALL_FORCE)
     frequency: float = quantity("Hz", default=35.0, low=0, usual=FREQUENCY)
     phase: float = quantity("rad", default=0.0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1, open_low=True)

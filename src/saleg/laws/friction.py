@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Friction
-from saleg.laws.usual import FORCE, FRICTION
+from saleg.laws.usual import FRICTION, SMALL_FORCE
 from saleg.quantities import quantity
 
 
@@ -70,7 +70,7 @@ class CoulombViscousFriction(Friction):
 
     mirrors: ClassVar[bool] = True
 
-    coulomb: float = quantity("N", default=50.0, low=0, usual=FORCE)
+    coulomb: float = quantity("N", default=50.0, low=0, usual=SMALL_FORCE)
     viscous: float = quantity("N s/m", default=8.0, low=0, usual=FRICTION)
 
     def at_dead_centre(self, memory: float, stroke: Stroke) -> float:

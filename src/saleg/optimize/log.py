@@ -24,6 +24,7 @@ from saleg.files.atomic import write_text
 from saleg.files.lock import locked
 from saleg.files.reading import as_path, is_folder, named, read_text
 from saleg.files.tables import DamagedTable, labelled, read_table, write_table
+from saleg.quantities import is_whole
 from saleg.version import __version__
 
 if TYPE_CHECKING:
@@ -126,14 +127,18 @@ class Log:
         if (self.path / PROGRESS).exists():
             known = self._json(PROGRESS)
             written = known.get("sha256")  # which earlier folders lack
-            self._bytes, self._designs = (known.get(name, 0) for name in ("bytes", "designs"))
-        with named(path, OptimisationError, "write"), open(path, "ab") as log:
-            if log.tell() < self._bytes:
-                raise _damaged(path, f"it has {log.tell()} bytes in place of {self._bytes}")
+            self._bytes, self._designs = (known.get(name, -1) for name in ("bytes", "designs"))
+            if not (is_whole(self._bytes, 0) and is_whole(self._designs, 0)):
+                raise _damaged(self.path / PROGRESS, "it lacks its numbers of bytes and designs")
+        with named(path, OptimisationError, "write"), open(path, "a+b") as log:
+            log.seek(0)
+            content = log.read()
+            if len(content) < self._bytes:
+                raise _damaged(path, f"it has {len(content)} bytes in place of {self._bytes}")
+            self._digest.update(content[: self._bytes])
+            if written not in (None, self._digest.hexdigest()):  # before anything is dropped
+                raise _damaged(path, f"it is not as it was written, by its SHA-256 in {PROGRESS}")
             log.truncate(self._bytes)
-            self._digest.update(path.read_bytes())
-        if written not in (None, self._digest.hexdigest()):
-            raise _damaged(path, f"it is not as it was written, by its SHA-256 in {PROGRESS}")
         if not self._bytes:
             return None
         table = _read(path)

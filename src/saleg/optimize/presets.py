@@ -18,7 +18,7 @@ from saleg.errors import SalegWarning
 from saleg.laws.usual import POWER
 from saleg.optimize.methods import GeneticAlgorithm
 from saleg.optimize.problem import InvalidProblem, Problem
-from saleg.quantities import unusual_number
+from saleg.quantities import as_float, unusual_number
 
 Bounds = Mapping[str, tuple[float, float]]
 
@@ -79,7 +79,11 @@ class Preset:
         target_power: float | None = 4e3,
         compression_ratio: tuple[float, float] = (5.0, 35.0),
     ) -> Any:
-        """Score of rows; that of the script has no term for the compression ratio."""
+        """Score of rows; that of the script has no term for the compression ratio.
+
+        A power far from what has been built is warned of.
+        """
+        _warn_of_unusual_power(target_power)
         if self.as_scripted:
             return script_score(target_power)
         if not np.iterable(compression_ratio) or len(compression_ratio) != 2:
@@ -98,15 +102,19 @@ class Preset:
         compression_ratio: tuple[float, float] = (5.0, 35.0),
         bounds: Bounds | None = None,
     ) -> Problem:
-        """Problem in this box; a power far from what has been built is warned of."""
+        """Problem in this box, with that score."""
         score = self.score(target_power, compression_ratio)
-        odd = unusual_number("target_power", float(target_power or 0.0), "W", POWER)
-        if odd:
-            warnings.warn(f"unusual for an engine: {odd}", SalegWarning, stacklevel=2)
         if bounds is not None and not isinstance(bounds, Mapping):
             need = "must be a mapping of names to (lowest, highest)"
             raise InvalidProblem([Wrong("bounds", bounds, "-", need)])
         return Problem({**self.box, **(bounds or {})}, score)
+
+
+def _warn_of_unusual_power(target_power: Any) -> None:
+    power = as_float(target_power)
+    odd = "" if power is None else unusual_number("target_power", power, "W", POWER)
+    if odd:
+        warnings.warn(f"unusual for an engine: {odd}", SalegWarning, stacklevel=3)
 
 
 def script_score(target_power: float | None = 4e3) -> WeightedScore:

@@ -175,7 +175,7 @@ class Folder:
         inputs, path = known.get("inputs"), self.path / RESULTS
         if not isinstance(inputs, dict) or not isinstance(known.get("count"), int):
             raise SweepError(f"{self.path / DESCRIPTION} is damaged: it lacks inputs or count")
-        if "points_sha256" in known:  # folders made before have no digests
+        if "points_sha256" in known or (self.path / DIGEST).exists():  # earlier ones have none
             digest = _read(self.path / DIGEST).partition(" ")[0]
             if digest != _digest(_read(path)):
                 raise _damaged(path, f"it is not as it was written, by its SHA-256 in {DIGEST}")

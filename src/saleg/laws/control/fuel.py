@@ -9,7 +9,7 @@ from saleg.laws.arguments import Signals
 from saleg.laws.control.base import FuelControl
 from saleg.laws.interpolation import linear
 from saleg.laws.profiles import at_time
-from saleg.laws.usual import POWER
+from saleg.laws.usual import POWER, TIME
 from saleg.quantities import quantity, series
 
 
@@ -45,7 +45,7 @@ class FuelCut(FuelControl):
         How many strokes go without [-]; a large number for ever.
     """
 
-    at: float = quantity("s", default=1.5, low=0)
+    at: float = quantity("s", default=1.5, low=0, usual=TIME)
     strokes: float = quantity("-", default=1.0, low=0)
 
     def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
@@ -87,7 +87,7 @@ class FuelOnDemand(FuelControl):
     compression_ratios: tuple[float, ...] = series(
         "-", default=(12.0, 18.0), low=1, length="powers"
     )
-    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True)
+    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True, usual=TIME)
     demands: tuple[float, ...] = series(
         "W", default=(3800.0, 1800.0), low=0, length="times", usual=POWER
     )

@@ -8,7 +8,7 @@ from typing import Any
 
 from saleg.laws.arguments import Drive, Signals
 from saleg.laws.control.base import MotorControl
-from saleg.laws.usual import FREQUENCY
+from saleg.laws.usual import FREQUENCY, SMALL_FORCE
 from saleg.quantities import quantity
 
 
@@ -44,7 +44,7 @@ class ResonanceSearch(MotorControl):
     """
 
     base_frequency: float = quantity("Hz", default=30.0, low=0, high=1e4, usual=FREQUENCY)
-    amplitude: float = quantity("N", default=264.0, low=0)
+    amplitude: float = quantity("N", default=264.0, low=0, usual=SMALL_FORCE)
     target: float = quantity("-", default=19.0, low=1)
     proportional_gain: float = quantity("Hz", default=1.0, low=0)
     integral_gain: float = quantity("Hz/s", default=5.0, low=0)
@@ -86,7 +86,7 @@ class SteadyMotor(MotorControl):
         Frequency [Hz].
     """
 
-    amplitude: float = quantity("N", default=66.0, low=0)
+    amplitude: float = quantity("N", default=66.0, low=0, usual=SMALL_FORCE)
     frequency: float = quantity("Hz", default=35.0, low=0, high=1e4, usual=FREQUENCY)
 
     def drive(self, memory: Any, signals: Signals) -> Drive:
