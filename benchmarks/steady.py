@@ -1,4 +1,4 @@
-"""Steady states: solved against waited for, one thread against two, agreement, and memory.
+"""Steady states: solved against waited for, together against one by one, two threads, agreement.
 
     python benchmarks/steady.py [--designs 1000] [--repeats 5] [--agree 500] [--memory 100000]
 
@@ -14,10 +14,13 @@ import platform
 import subprocess
 import sys
 import time
+from functools import partial
 
 import numpy as np
 
 import saleg
+from saleg.batch.many import steady_row
+from saleg.steady.solver import found_steady_state
 
 BASE = saleg.machines.thesis_base()
 PATHS = (
@@ -69,6 +72,22 @@ def compare(engines):
         f"ratio {waited / solved:.1f}; half cycles: mean {np.mean(halves):.1f}, most {max(halves)}"
     )
     print(f"found as a fixed point: {methods['fixed point']} of {count}\n")
+
+
+def together(engines, repeats):
+    """Best of some repeats of tables of engines solved one by one and together, in turns."""
+    row_of = partial(steady_row, multipliers=False)
+    ways = {
+        "one by one": lambda: [row_of(found_steady_state(engine, RTOL)) for engine in engines],
+        "together": lambda: saleg.steady_states(engines, rtol=RTOL, workers=1),
+    }
+    best = dict.fromkeys(ways, np.inf)
+    for _ in range(repeats):
+        for name, way in ways.items():
+            best[name] = min(best[name], seconds(way)[0])
+    for name, spent in best.items():
+        print(f"{name}: {1e3 * spent / len(engines):.3f} ms a row")
+    print(f"ratio {best['one by one'] / best['together']:.2f}\n")
 
 
 def threads(engines, repeats):
@@ -129,6 +148,7 @@ def main():
     saleg.steady_state(BASE)
     saleg.simulate(BASE, 0.1)
     compare(engines)
+    together(engines[: options.designs // 2], options.repeats)
     threads(engines[: options.designs // 2], options.repeats)
     if options.agree:
         agreement(options.agree)

@@ -12,13 +12,24 @@ import pandas as pd
 import pytest
 
 import saleg
-from saleg import BounceChamber, Engine, InvalidEngine, SalegError, SalegWarning, Translator, sweep
+from saleg import (
+    BounceChamber,
+    Engine,
+    InvalidEngine,
+    SalegError,
+    SalegWarning,
+    Translator,
+    laws,
+    sweep,
+)
 from saleg.control import Demand, Sensors
 from saleg.design.designs import NAMES as PARAMETERS
 from saleg.engine.start import MidpointVelocity
+from saleg.engine.toml import laws_by_slot
 from saleg.errors import PathsClash, RunFileError, WrongQuantity
 from saleg.laws import HeatedIntake, LinearSprings, PreloadedSprings, Wiebe
-from saleg.quantities import quantity, series
+from saleg.optimize.files import read as read_optimisation
+from saleg.quantities import quantity, series, unusual
 from saleg.sweep.files import read as read_sweep
 from saleg.thesis.tables import columns
 
@@ -360,11 +371,19 @@ def test_records_cannot_be_written_to(base):
 SLIPS = {
     "bore": (66.0, "0.066 if given in mm"),
     "half_stroke": (100.0, "0.1 if given in mm"),
+    "head_gap": (0.1, "0.0001 if given in mm"),
+    "left.bore": (6.6, "0.0066 if given in mm, 0.066 if given in cm"),
+    "alternator.load_constant": (0.07, "70 if given in kN s/m"),
     "moving_mass": (2390.0, "2.39 if given in g"),
     "intake.pressure": (1.05, "105000 if given in bar"),
     "intake.temperature": (125.0, "398.15 if given in degC"),
     "fuel.lower_heating_value": (48.0, "4.8e+07 if given in MJ/kg"),
+    "wall_temperature": (130.0, "403.15 if given in degC"),
+    "right.bore": (2.5, "0.0635 if given in inch"),
+    "friction.coefficient": (12400.0, "usually 0.001 to 5000"),
+    "fuel.air_fuel_ratio": (0.057, "usually 1 to 60"),
     "spring.stiffness": (30.0, "30000 if given in kN/m"),
+    "springs.stiffness": (2e7, "usually 100 to 1e+07"),
     "heat_release.combustion_duration": (1.25, "0.00125 if given in ms"),
 }
 
@@ -388,6 +407,105 @@ def test_one_warning_for_one_engine(base):
         assert caught[0].filename == __file__
 
 
+def test_the_reference_warns_as_well(base):
+    with pytest.warns(SalegWarning, match=r"mass = 2390\.0"):
+        saleg.reference.simulate(base.replace(moving_mass=2390.0), 1e-4)
+
+
+LAW_SLIPS = [
+    (MidpointVelocity(frequency=2700.0), "45 if given in 1/min"),
+    (PreloadedSprings(preload=3.0), "3000 if given in kN"),
+    (laws.ProgressiveSprings(deflections=(0.0, 100.0)), "0.1 if given in mm"),
+    (laws.EndStops(gap=95.0), "0.095 if given in mm"),
+    (laws.FluxProfile(wavelength=50.0), "0.05 if given in mm"),
+    (laws.CosineForce(amplitude=1.5), "1500 if given in kN"),
+    (laws.SinusoidalMotor(amplitude=0.264), "264 if given in kN"),
+    (laws.ConstantGamma(gas_constant=0.287), "287 if given in kJ/kg/K"),
+    (laws.SteadyMotor(amplitude=0.066), "66 if given in kN"),
+    (laws.Actuators(load_lag=20.0), "0.02 if given in ms"),
+    (laws.Actuators(coldest=20.0), "293.15 if given in degC"),
+    (laws.PowerDemand(times=(2000.0, 4000.0)), "2 if given in ms"),
+    (Demand.step(2.0, 4.0, 2.0), "4000 if given in kW"),
+    (Sensors(position_resolution=0.05), "5e-05 if given in mm"),
+]
+
+
+@pytest.mark.parametrize(("part", "hint"), LAW_SLIPS)
+def test_a_number_of_a_law_in_another_unit_is_unusual(part, hint):
+    (problem,) = unusual(part)
+    assert hint in str(problem)
+
+
+def test_parts_of_a_tenth_to_ten_times_the_size_are_usual():
+    """Every law, controller and chamber, each number scaled as its unit says."""
+    powers = {"m": 1, "s": 1, "N": 2, "N/m": 1, "N s/m": 2, "Hz": -1, "W": 2}
+
+    def scaled(part, size):
+        changes = {}
+        for field in dataclasses.fields(part):
+            value, limits = getattr(part, field.name), field.metadata.get("limits")
+            if limits is not None:
+                by = size ** powers.get(limits.unit, 0)
+                many = isinstance(value, tuple)
+                changes[field.name] = tuple(by * each for each in value) if many else by * value
+            elif dataclasses.is_dataclass(value):
+                changes[field.name] = scaled(value, size)
+        return dataclasses.replace(part, **changes)
+
+    kinds = [kind for kinds in laws_by_slot().values() for kind in kinds.values()]
+    parts = [kind() for kind in kinds] + [saleg.Controller()]
+    parts += [make().left for make in saleg.machines.CATALOGUE.values()]
+    for size in (0.1, 0.3, 1.0, 3.0, 10.0):
+        assert [unusual(scaled(part, size)) for part in parts] == [[]] * len(parts)
+
+
+def test_a_controller_run_as_python_is_warned_of_once():
+    controller = saleg.Controller(motor_control=laws.SteadyMotor(frequency=2100.0))
+    odd = Sensors(position_resolution=0.05)
+    engine = saleg.machines.thesis_transient()
+    with pytest.warns(SalegWarning, match=r"35 if given in 1/min") as caught:
+        saleg.control.simulate(engine, controller, 1e-3, sensors=odd)
+    (warning,) = caught
+    assert warning.filename == __file__
+    assert "sensors.position_resolution = 0.05" in str(warning.message)
+    (row,) = saleg.control.simulate_many([(engine, controller)], 1e-3, workers=1).message
+    assert "unusual: controller.motor_control.frequency = 2100.0" in row
+
+
+def test_a_target_power_of_a_file_in_kilowatts_is_warned_of(tmp_path):
+    file = tmp_path / "kilowatts.toml"
+    file.write_text("[optimize]\ntarget_power = 22.0\n")
+    with pytest.warns(SalegWarning, match=r"target_power = 22\.0 \[W\].*22000 if given in kW"):
+        read_optimisation(file)
+
+
+def test_a_controller_in_other_units_is_warned_of():
+    controller = saleg.Controller(
+        motor_control=saleg.laws.ResonanceSearch(base_frequency=1800.0),
+        load_control=saleg.laws.PowerDemand(times=(0.0, 1.0), demands=(3.8, 1.8)),
+    )
+    with pytest.warns(SalegWarning, match=r"3800 if given in kW") as caught:
+        saleg.control.simulate(saleg.machines.thesis_transient(), controller, 0.001)
+    (warning,) = caught
+    assert "30 if given in 1/min" in str(warning.message)
+
+
+def test_a_target_power_in_kilowatts_is_warned_of():
+    with pytest.warns(SalegWarning, match=r"target_power = 4\.0 \[W\].*4000 if given in kW"):
+        saleg.optimize.thesis_problem(4.0)
+
+
+def test_engines_of_a_tenth_and_five_times_the_size_are_usual(base):
+    for size in (0.1, 5.0):
+        changes = {
+            "bore": size, "half_stroke": size, "port_closing": size, "moving_mass": size**3,
+            "spring.stiffness": size, "alternator.load_constant": size**2,
+            "friction.coefficient": size**2, "heat_release.combustion_duration": size,
+        }  # fmt: skip
+        scaled = base.replace(**{path: base.get(path) * by for path, by in changes.items()})
+        assert scaled.unusual() == []
+
+
 def test_a_table_says_it_in_the_row(base):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -407,11 +525,8 @@ def test_nothing_we_publish_is_unusual():
 
 
 def test_no_default_is_unusual():
-    from saleg.engine.toml import laws_by_slot
-    from saleg.quantities import unusual
-
-    for laws in laws_by_slot().values():
-        for law in laws.values():
+    for kinds in laws_by_slot().values():
+        for law in kinds.values():
             assert unusual(law()) == []
 
 
@@ -429,7 +544,7 @@ def test_a_run_remarks_on_what_no_engine_comes_near(base):
 
 
 def test_walls_that_heat_the_gas_are_remarked_on(base):
-    """Walls at 2500 K give a cycle more than its fuel: the efficiency alone looks like a marvel."""
-    hot = saleg.steady_state(base.replace(wall_temperature=2500.0, equivalence_ratio=0.1))
+    """Walls at 1500 K give a cycle more than its fuel: the efficiency alone looks like a marvel."""
+    hot = saleg.steady_state(base.replace(wall_temperature=1500.0, equivalence_ratio=0.05))
     assert hot.energy.heat_transfer < -hot.energy.released < 0.0
     assert any("heat from the walls" in text for text in hot.remarks)

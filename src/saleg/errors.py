@@ -7,9 +7,55 @@ import reprlib
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
+__all__ = [
+    "AxesError",
+    "ControllerError",
+    "EngineFileError",
+    "InvalidController",
+    "InvalidEngine",
+    "LawError",
+    "OutsideModel",
+    "PathsClash",
+    "Problem",
+    "RunFileError",
+    "SalegError",
+    "SalegWarning",
+    "StartError",
+    "SweepError",
+    "UnknownPath",
+    "WrongFields",
+    "WrongQuantity",
+]
+
+
+def shown(value: Any) -> str:
+    """A value as one line of text, cut where it is long, whatever its own text does.
+
+    Examples
+    --------
+    >>> shown(10**5000), shown([1, 2])
+    ('<int>', '[1, 2]')
+    """
+    try:
+        return " ".join(reprlib.repr(value).split())
+    except Exception:  # more digits than Python shows, or a class that fails to describe itself
+        return f"<{type(value).__name__}>"
+
 
 class Problem(NamedTuple):
-    """One field that is wrong, or unusual: where, what stands there, and what may."""
+    """One field that is wrong, or unusual: where, what stands there, and what may.
+
+    Attributes
+    ----------
+    path : str
+        Dotted path of the field.
+    value : object
+        What stands there.
+    unit : str
+        Its SI unit; "-" for a pure number.
+    allowed : str
+        What may stand there, in words.
+    """
 
     path: str
     value: Any
@@ -18,8 +64,7 @@ class Problem(NamedTuple):
 
     def __str__(self) -> str:
         unit = "" if self.unit in ("", "-") else f" [{self.unit}]"
-        shown = reprlib.repr(self.value)
-        return f"{self.path} = {shown}{unit}: {self.allowed}"
+        return f"{self.path} = {shown(self.value)}{unit}: {self.allowed}"
 
 
 class SalegWarning(UserWarning):
@@ -49,7 +94,7 @@ class WrongFields(SalegError, ValueError):
         plural = "s" if count > 1 else ""
         super().__init__(f"{count} wrong field{plural} in the {self.whole}:\n{lines}")
 
-    def __reduce__(self) -> tuple[type[WrongFields], tuple[list[Problem]]]:
+    def __reduce__(self) -> tuple[type[WrongFields], tuple[Any, ...]]:
         """Pickle by the problems, not by their text."""
         return type(self), (self.problems,)
 
@@ -64,6 +109,25 @@ class InvalidController(WrongFields):
     """A controller with fields out of range; `problems` lists them all."""
 
     whole = "controller"
+
+
+class WrongArguments(WrongFields):
+    """A call with wrong arguments; `problems` lists them all.
+
+    Parameters
+    ----------
+    problems : iterable of Problem
+    whole : str
+        Whose arguments they are.
+    """
+
+    def __init__(self, problems: Iterable[Problem], whole: str = "arguments"):
+        self.whole = whole
+        super().__init__(problems)
+
+    def __reduce__(self) -> tuple[type[WrongFields], tuple[Any, ...]]:
+        """Pickle by the problems and whose they are."""
+        return type(self), (self.problems, self.whole)
 
 
 class WrongQuantity(SalegError, ValueError):
@@ -117,5 +181,6 @@ class StartError(SalegError, ArithmeticError):
 
 def nearest(name: object, known: Iterable[str]) -> str:
     """Text that suggests the known names most like a wrong one; empty if there is none."""
-    close = difflib.get_close_matches(str(name), list(dict.fromkeys(known)), n=3, cutoff=0.5)
+    text = name if isinstance(name, str) else shown(name)
+    close = difflib.get_close_matches(text, list(dict.fromkeys(known)), n=3, cutoff=0.5)
     return f"; did you mean {' or '.join(map(repr, close))}?" if close else ""

@@ -11,7 +11,9 @@ from numbers import Integral, Real
 from typing import Any, NamedTuple
 
 from saleg.errors import Problem as Problem
-from saleg.errors import WrongQuantity
+from saleg.errors import WrongQuantity, shown
+
+__all__ = ["Quantities", "problems", "quantity", "series", "unusual"]
 
 
 class Quantities:
@@ -51,9 +53,9 @@ def quantity(
     unit : str
         SI unit as people write it, ``"-"`` for a pure number.
     default : float, optional
-        Default value; the field is required without one.
+        Default value, in that unit; the field is required without one.
     low, high : float
-        Allowed range.
+        Allowed range, in that unit.
     open_low, open_high : bool
         Whether the end itself is excluded.
     usual : (float, float), optional
@@ -80,7 +82,7 @@ def quantity(
     >>> problems(Rod(-1.0), "rod")[0].path
     'rod.length'
     >>> str(unusual(Rod(250.0))[0])
-    'length = 250.0 [m]: usually 0.01 to 3; it would be 0.25 if given in mm'
+    'length = 250.0 [m]: usually 0.01 to 3; it would be 0.25 if given in mm, 2.5 if given in cm'
     """
     ends = float(low), float(high), open_low, open_high
     limits = Limits(_checked_unit(unit), *ends, usual, int if whole else float)
@@ -98,6 +100,7 @@ def series(
     ends: tuple[float, float] | None = None,
     at_least: int = 1,
     length: str = "",
+    usual: tuple[float, float] | None = None,
 ) -> Any:
     """Declare a dataclass field that holds some numbers of one unit, as a tuple.
 
@@ -108,7 +111,7 @@ def series(
     default : tuple of float, optional
         Default values; the field is required without.
     low, high : float
-        Allowed range of every number.
+        Allowed range of every number, in that unit.
     rising : bool
         Whether every number must be greater than the one before.
     never_falling : bool
@@ -120,6 +123,8 @@ def series(
     length : str
         Name of the fields that say how many numbers there must be: one series, or several
         joined by ``*`` for a table over all their combinations.
+    usual : (float, float), optional
+        Range of what has been built, generously; see :func:`unusual`. 0 is never unusual.
 
     Returns
     -------
@@ -140,7 +145,7 @@ def series(
     >>> str(problems(Profile((0.0, 2.0, 1.0)))[0])
     'x = (0.0, 2.0, 1.0) [m]: every number must be greater than the one before'
     """
-    limits = Limits(_checked_unit(unit), float(low), float(high), False, False)
+    limits = Limits(_checked_unit(unit), float(low), float(high), False, False, usual)
     shape = Shape(rising, never_falling, ends, at_least, length)
     return dataclasses.field(default=default, metadata={"limits": limits, "series": shape})
 
@@ -178,16 +183,16 @@ class Limits(NamedTuple):
         allowed = str(self)
         return " ".join(f"must be {kind or (not allowed) * 'a finite number'} {allowed}".split())
 
-    def admits(self, value: float) -> bool:
-        """Whether a finite number lies in the range."""
-        over = value > self.low or (value == self.low and not self.open_low)
-        under = value < self.high or (value == self.high and not self.open_high)
-        return over and under
+    def admits(self, value: Any) -> Any:
+        """Whether a finite number, or each of an array, lies in the range."""
+        over = (value > self.low) | ((value == self.low) & (not self.open_low))
+        under = (value < self.high) | ((value == self.high) & (not self.open_high))
+        return over & under
 
 
 def _checked_unit(unit: Any) -> str:
     if not isinstance(unit, str) or not unit.isprintable():
-        raise WrongQuantity(f"unit = {unit!r}: must be one line of text, such as 'N/m'")
+        raise WrongQuantity(f"unit = {shown(unit)}: must be one line of text, such as 'N/m'")
     return unit
 
 
@@ -286,8 +291,8 @@ def problems(node: Any, path: str = "") -> list[Problem]:
             if not (is_number(value) if limits.kind is float else is_whole(value)):
                 wanted = "a number" if limits.kind is float else "a whole number"
                 found.append(Problem(where, value, limits.unit, limits.wanted(wanted)))
-            elif not math.isfinite(value) or not limits.admits(float(value)):
-                need = "" if math.isfinite(value) else "a finite number"
+            elif not _is_finite(value) or not limits.admits(value):
+                need = "" if _is_finite(value) else "a finite number"
                 found.append(Problem(where, value, limits.unit, limits.wanted(need)))
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             found.extend(problems(value, where))
@@ -296,16 +301,27 @@ def problems(node: Any, path: str = "") -> list[Problem]:
     return found
 
 
+def _is_finite(value: Any) -> bool:
+    """Whether a number is finite; whole numbers are, however many digits they have."""
+    return isinstance(value, int) or math.isfinite(value)
+
+
 #: Units a number may have been given in by mistake, the likeliest first: factor and offset to SI.
 GIVEN_IN = {
-    "m": (("mm", 1e-3, 0.0), ("cm", 1e-2, 0.0)),
+    "m": (("mm", 1e-3, 0.0), ("cm", 1e-2, 0.0), ("inch", 0.0254, 0.0)),
     "kg": (("g", 1e-3, 0.0),),
     "s": (("ms", 1e-3, 0.0), ("us", 1e-6, 0.0)),
     "K": (("degC", 1.0, 273.15),),
     "Pa": (("bar", 1e5, 0.0), ("kPa", 1e3, 0.0), ("MPa", 1e6, 0.0)),
+    "N": (("kN", 1e3, 0.0),),
+    "N s/m": (("kN s/m", 1e3, 0.0),),
     "N/m": (("kN/m", 1e3, 0.0), ("N/mm", 1e3, 0.0)),
     "J/kg": (("MJ/kg", 1e6, 0.0), ("kJ/kg", 1e3, 0.0)),
     "H": (("mH", 1e-3, 0.0), ("uH", 1e-6, 0.0)),
+    "J/kg/K": (("kJ/kg/K", 1e3, 0.0),),
+    "cal/mol": (("kcal/mol", 1e3, 0.0), ("kJ/mol", 1e3 / 4.184, 0.0), ("J/mol", 1 / 4.184, 0.0)),
+    "W": (("kW", 1e3, 0.0), ("MW", 1e6, 0.0)),
+    "Hz": (("1/min", 1.0 / 60.0, 0.0),),
 }
 
 
@@ -329,10 +345,38 @@ def unusual(node: Any, path: str = "") -> list[Problem]:
     for name, limits in _with_usual_range(kind):
         value, where = getattr(node, name), f"{path}.{name}" if path else name
         if limits is None:
-            found.extend(unusual(value, where) if dataclasses.is_dataclass(value) else ())
-        elif value and not limits.usual[0] <= value <= limits.usual[1]:
-            found.append(Problem(where, value, limits.unit, _usual_text(value, limits)))
+            parts = dataclasses.is_dataclass(value) and not isinstance(value, type)
+            found.extend(unusual(value, where) if parts else ())
+            continue
+        values = value if isinstance(value, tuple) else (value,)
+        numbers = [number for number in values if isinstance(number, (int, float))]
+        odd = [number for number in numbers if not is_usual(number, limits)]
+        # A slip of units is one of all numbers; 0 is the same in all.
+        if odd and len(odd) == sum(number != 0.0 for number in numbers):
+            found.append(Problem(where, value, limits.unit, _usual_text(odd[0], limits)))
     return found
+
+
+def unusual_number(name: str, value: float, unit: str, usual: tuple[float, float]) -> str:
+    """What is unusual about a number that stands by itself; empty if nothing is.
+
+    Parameters
+    ----------
+    name, unit : str
+    value : float
+    usual : (float, float)
+        Range of what has been built, generously.
+    """
+    limits = Limits(unit, -math.inf, math.inf, False, False, usual)
+    if is_usual(value, limits):
+        return ""
+    return str(Problem(name, value, unit, _usual_text(value, limits)))
+
+
+def is_usual(value: Any, limits: Limits) -> Any:
+    """Whether a number, or each of an array, is usual: 0 is, and any without a usual range."""
+    low, high = limits.usual or (-math.inf, math.inf)
+    return (value == 0.0) | ((low <= value) & (value <= high))
 
 
 @lru_cache(maxsize=1024)
@@ -345,10 +389,12 @@ def _with_usual_range(kind: Any) -> tuple[tuple[str, Any], ...]:
 def _usual_text(value: float, limits: Limits) -> str:
     low, high = limits.usual or (0.0, 0.0)
     text = f"usually {low:g} to {high:g}"
-    for unit, factor, offset in GIVEN_IN.get(limits.unit, ()):
-        if low <= factor * value + offset <= high:
-            return f"{text}; it would be {factor * value + offset:g} if given in {unit}"
-    return text
+    likely = [
+        f"{factor * value + offset:g} if given in {unit}"
+        for unit, factor, offset in GIVEN_IN.get(limits.unit, ())
+        if low <= factor * value + offset <= high
+    ]
+    return f"{text}; it would be {', '.join(likely)}" if likely else text
 
 
 def _series_problems(node: Any, field: dataclasses.Field[Any], where: str) -> list[Problem]:

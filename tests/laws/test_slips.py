@@ -12,7 +12,7 @@ import saleg
 from saleg import LawError
 from saleg.compiler.compiled_engine import check_methods
 from saleg.compiler.diagnosis import diagnosed
-from saleg.laws import LinearLoad, LinearSprings
+from saleg.laws import LinearLoad, LinearSprings, ViscousFriction
 from saleg.simulation.faulty_law import fault_near
 from saleg.simulation.initial_state import prepare
 
@@ -143,7 +143,43 @@ def drawing(self, motion):
     return -np.random.random() * motion.x  # noqa: NPY002
 
 
+def naming(self, motion):
+    if (x := motion.x) > 0.0:
+        return -x
+    return -motion.x
+
+
+def deleting(self, motion):
+    x = motion.x
+    del x
+    return -motion.x
+
+
+def gathering(self, motion):
+    x, *_ = motion.x, 1.0, 2.0
+    return -x
+
+
+def looking_up(self, motion):
+    return -{1: 2.0}[1] * motion.x
+
+
+def in_a_set(self, motion):
+    return -motion.x if motion.direction in {-1.0, 1.0} else 0.0
+
+
+def in_a_list(self, motion):
+    a = [1.0, 2.0]
+    return -a[0] * motion.x
+
+
 SLIPS = [
+    (in_a_list, "uses a list; write a tuple"),
+    (naming, "':='.*assign it on a line before"),
+    (deleting, "deletes a name"),
+    (gathering, "gathers values"),
+    (looking_up, "uses a dictionary"),
+    (in_a_set, "uses a set; write a tuple"),
     (drawing, "draws random numbers"),
     (undefined, "uses 'nothing', which is not defined"),
     (attribute, "uses 'motion.position'.*Motion has t, x, v"),
@@ -238,6 +274,12 @@ class NanBeyond(LinearSprings):
 
 
 @dataclasses.dataclass(frozen=True)
+class Seizing(ViscousFriction):
+    def force(self, memory, motion):
+        return motion.v if memory < 2.0 else math.inf
+
+
+@dataclasses.dataclass(frozen=True)
 class NanWeight(LinearLoad):
     def at_dead_centre(self, load_weight, stroke):
         return math.nan
@@ -252,3 +294,10 @@ def test_a_law_that_gives_nan_is_named(base):
     state.records[0].load_weight = math.nan
     said = fault_near(base.replace(alternator=NanWeight()), *state.records, state.y)
     assert said == "NanWeight.at_dead_centre returned nan"
+
+
+def test_the_memory_a_law_is_not_finite_at_is_named(base):
+    state = prepare(base)
+    state.records[0].friction_held = 3.0
+    said = fault_near(base.replace(friction=Seizing()), *state.records, state.y)
+    assert said.startswith("Seizing.force returns inf at memory = 3, t = 0, x = ")

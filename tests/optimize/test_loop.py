@@ -169,10 +169,29 @@ def test_another_optimisation_in_the_folder_is_refused(tmp_path):
     (tmp_path / "mine" / "letter.txt").write_text("dear")
     with pytest.raises(SalegError, match=r"no folder of an optimisation: it holds letter.txt"):
         o.optimize(hill(), method, 30, 0, tmp_path / "mine")
-    with open(tmp_path / "one" / "designs.csv", "r+b") as log:
-        log.truncate(100)
+    log = tmp_path / "one" / "designs.csv"
+    text = log.read_text()
+    log.write_text(text.replace("1", "2"))
+    with pytest.raises(SalegError, match=r"designs.csv is damaged: it is not as it was written"):
+        o.optimize(hill(), method, 30, 0, tmp_path / "one")
+    log.write_text(text[:100])
     with pytest.raises(SalegError, match=r"designs.csv is damaged"):
         o.optimize(hill(), method, 30, 0, tmp_path / "one")
+
+
+def test_nothing_is_dropped_by_an_altered_progress(tmp_path):
+    method = o.CMAES(size=8, sample=20)
+    whole = o.optimize(hill(), method, 30, 0, tmp_path, workers=1)
+    progress, designs = tmp_path / "progress.json", (tmp_path / "designs.csv").read_bytes()
+    right = progress.read_text()
+    known = json.loads(right)
+    for wrong in ({"bytes": 0}, {"bytes": 100}, {"bytes": "all"}, {"designs": None}):
+        progress.write_text(json.dumps(known | wrong))
+        with pytest.raises(SalegError, match=r"(designs.csv|progress.json) is damaged"):
+            o.optimize(hill(), method, 30, 0, tmp_path, workers=1)
+        assert (tmp_path / "designs.csv").read_bytes() == designs
+    progress.write_text(right)
+    assert o.optimize(hill(), method, 30, 0, tmp_path, workers=1).table.equals(whole.table)
 
 
 def test_a_log_of_another_course_is_refused(tmp_path):

@@ -199,6 +199,20 @@ def test_a_motored_engine_runs(base):
     assert (row.status, row.stable, row.kind) == ("steady", False, "")
 
 
+@pytest.mark.filterwarnings("ignore:unusual for an engine")
+def test_an_engine_that_lives_on_the_heat_of_its_walls_is_steady(base):
+    """It was "stalled" with 900 W: it never fires, but what it delivers comes from the walls."""
+    hot = base.replace(wall_temperature=2500.0, equivalence_ratio=0.0)
+    found, run = saleg.steady_state(hot), saleg.simulate(hot, 20.0)
+    assert (found.status, run.status) == (Status.STEADY, Status.STEADY)
+    assert "delivers power without firing" in found.message
+    assert found.performance.power == pytest.approx(run.performance.power, rel=1e-5)
+    energy = found.energy
+    assert energy.fuel == energy.released == 0.0
+    assert 0.0 < energy.alternator + energy.friction < -energy.heat_transfer
+
+
+@pytest.mark.filterwarnings("ignore:unusual for an engine")
 def test_an_overdamped_piston_is_stalled(base):
     """It creeps to its equilibrium: no dead centre ever comes."""
     engine = base.replace(**{"friction.coefficient": 5e4})
@@ -257,7 +271,7 @@ HOPELESS = (
     {"port_closing": 0.06},
     {"intake.temperature": 670.0},
     {"alternator.load_constant": 300.0},
-    {"friction.coefficient": 1e5},
+    {"friction.coefficient": 5e3},
     {"half_stroke": 0.3},
 )
 

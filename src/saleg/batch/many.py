@@ -8,16 +8,29 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from saleg.batch.table import CHUNK, Row, in_pieces, rows_of, table_of
+from saleg.batch.table import (
+    CHUNK,
+    Columns,
+    Row,
+    filled_up,
+    in_pieces,
+    rows_of,
+    suitable_chunk,
+    table_of,
+)
 from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine, check_engine
+from saleg.engine.columns import Rows, is_usual, rows_by_make
+from saleg.errors import shown
+from saleg.simulation.indicators import closure
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import integrate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
-from saleg.simulation.performance import Performance
+from saleg.simulation.performance import Performance, cycle_figures, is_remarkable, remarks_on
 from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
+from saleg.steady.many import Orbits, steady_rows, verdicts
 from saleg.steady.solver import (
     Effort,
     SteadyState,
@@ -63,7 +76,7 @@ def steady_states(
     effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
 ) -> pd.DataFrame:
     """Steady states of many engines.
 
@@ -72,7 +85,7 @@ def steady_states(
     engines : iterable of Engine
         Taken as they are needed, so they need not all exist at once.
     rtol : float
-        Tolerance of the integrator.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     effort : Effort
@@ -82,8 +95,8 @@ def steady_states(
         Who does the work; threads of this process unless given.
     workers : int, optional
         Threads; as many as there are processors unless given.
-    chunk : int
-        Engines sent at a time.
+    chunk : int, optional
+        Engines sent at a time; 32 to 128 unless given, so that no worker waits.
 
     Returns
     -------
@@ -103,9 +116,17 @@ def steady_states(
     rtol = check_tolerance(rtol)
     check_effort(effort)
     check_flag("multipliers", multipliers)
-    row_of = partial(_steady_row, rtol=rtol, multipliers=multipliers, effort=effort)
-    units = STABILITY_UNITS if multipliers else STEADY_UNITS
-    return batch_table(row_of, engines, units, kernel_for, executor, workers, chunk)
+    check_workers(executor, workers)
+    work: Callable[[Sequence[Engine]], Columns]
+    if multipliers:
+        row_of = partial(_steady_row, rtol=rtol, multipliers=True, effort=effort)
+        work, units = partial(rows_of, row_of), STABILITY_UNITS
+    else:
+        work, units = partial(_steady_piece, rtol=rtol, effort=effort), STEADY_UNITS
+    if chunk is None:
+        count = len(engines) if isinstance(engines, Sequence) else None
+        chunk = suitable_chunk(count, workers)
+    return batch_table(work, engines, units, kernel_for, executor, workers, chunk)
 
 
 def simulate_many(
@@ -135,11 +156,13 @@ def simulate_many(
         One row per engine, in order: status, message and the figures of the last cycle.
     """
     row_of = partial(_run_row, settings=Settings(duration, **settings).checked())
-    return batch_table(row_of, engines, RUN_UNITS, kernel_for, executor, workers, chunk)
+    return batch_table(
+        partial(rows_of, row_of), engines, RUN_UNITS, kernel_for, executor, workers, chunk
+    )
 
 
 def batch_table(
-    row_of: Callable[[T], Row],
+    work: Callable[[Sequence[T]], Columns],
     items: Iterable[T],
     units: Mapping[str, str],
     kernel_of: Callable[[T], Hashable],
@@ -150,9 +173,9 @@ def batch_table(
     """Table with a row per item and a column per unit, whoever does the work."""
     check_workers(executor, workers, chunk)
     if not np.iterable(items):
-        raise SettingsError(f"engines = {items!r}: must be a list of engines, or the like")
+        raise SettingsError(f"engines = {shown(items)}: must be a list of engines, or the like")
     parts = in_pieces(
-        partial(rows_of, row_of),
+        work,
         items,
         chunk=chunk,
         executor=executor,
@@ -161,6 +184,71 @@ def batch_table(
         total=len(items) if isinstance(items, Sequence) else None,
     )
     return table_of(dict(parts), units)
+
+
+def steady_columns(
+    lots: Iterable[Rows], row_of: Callable[[int], Row], count: int, rtol: float, effort: Effort
+) -> Columns:
+    """Columns of steady states: of most engines together, of the others one by one.
+
+    Parameters
+    ----------
+    lots : iterable of Rows
+        Those among the engines that may be solved together.
+    row_of : callable
+        Row of the engine in a place, solved by itself.
+    count : int
+        Number of engines.
+    rtol : float
+        Tolerance of the integrator.
+    effort : Effort
+    """
+    together = [
+        (found.rows.places, columns_of(found, cycle_figures_of(found), *verdicts(found, rtol)))
+        for rows in lots
+        for found in steady_rows(rows, rtol, effort)
+    ]
+    return filled_up(count, together, row_of)
+
+
+def _steady_piece(engines: Sequence[Engine], rtol: float, effort: Effort) -> Columns:
+    """Columns of steady states of some engines."""
+
+    def row_of(place: int) -> Row:
+        return _steady_row(engines[place], rtol, False, effort)
+
+    return steady_columns(rows_by_make(engines), row_of, len(engines), rtol, effort)
+
+
+def cycle_figures_of(found: Orbits) -> dict[str, Any]:
+    """Figures of orbits."""
+    engine, strokes = found.rows.engine, found.strokes
+    return {**cycle_figures(engine, strokes), "stability": closure(engine, strokes)}
+
+
+def columns_of(
+    found: Orbits, figures: Mapping[str, Any], status: np.ndarray, message: np.ndarray
+) -> Columns:
+    """Columns of orbits; remarks go into their messages."""
+    engine, strokes, count = found.rows.engine, found.strokes, len(status)
+    odd = ~is_usual(found.rows) | is_remarkable(engine, figures, strokes)
+    for n in np.flatnonzero(odd).tolist():
+        one = found.rows.row(n)
+        remarks = remarks_on(one, Performance.of_cycle(one, strokes[n], strokes[n]), strokes[n])
+        message[n] = "; ".join([message[n], *_odd(one, remarks)])
+    return {
+        "status": status,
+        "message": message,
+        **{
+            name: np.broadcast_to(figures.get(name, np.nan), count)
+            for name in PERFORMANCE_UNITS
+            if name not in NOT_IN_ROWS
+        },
+        "method": np.full(count, "fixed point", dtype=object),
+        "half_cycles": found.half_cycles.astype(float),
+        "evaluations": found.evaluations,
+        "residual": found.residual,
+    }
 
 
 def _steady_row(engine: Engine, rtol: float, multipliers: bool, effort: Effort) -> Row:

@@ -7,7 +7,7 @@ from concurrent.futures import Executor
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
-from saleg.batch.table import Columns, Row, in_pieces, rows_of, table_of
+from saleg.batch.table import Columns, Row, in_pieces, rows_of, suitable_chunk, table_of
 from saleg.batch.workers import check_workers
 from saleg.errors import SweepError
 from saleg.quantities import is_number
@@ -17,7 +17,17 @@ if TYPE_CHECKING:
 
 #: Values of the inputs of a point (SI), by name.
 Values = Mapping[str, float]
-Solver = Callable[[Values], Row]
+
+
+class Solver(Protocol):
+    """Makes rows of points; may remember the point before.
+
+    One that has a method ``columns``, which takes a list of points and gives their rows column by
+    column, is asked for all points of a piece at once.
+    """
+
+    def __call__(self, values: Values) -> Row:
+        """Row of a point."""
 
 
 class Evaluated(Protocol):
@@ -70,19 +80,19 @@ class Evaluation:
         points: pd.DataFrame,
         evaluated: Evaluated,
         solver: Callable[[], Solver],
-        chunk: int,
+        chunk: int | None,
         executor: Executor | None,
         workers: int | None,
     ):
         _check(points, evaluated)
-        check_workers(executor, workers, chunk)
+        check_workers(executor, workers, 1 if chunk is None else chunk)
         solver()  # what it refuses, it refuses here
         self.input_units = {str(name): evaluated.unit(str(name)) for name in points}
         self.points = self._described(points.reset_index(drop=True), self.input_units)
-        self.chunk = chunk
+        self.chunk = suitable_chunk(len(points), workers) if chunk is None else chunk
         self._result_units = evaluated.units
         self._pieces = partial(
-            in_pieces, partial(_rows, solver), chunk=chunk, executor=executor, workers=workers
+            in_pieces, partial(_rows, solver), chunk=self.chunk, executor=executor, workers=workers
         )
 
     def parts(self, done: Collection[int] = ()) -> Iterator[tuple[int, Columns]]:
@@ -100,7 +110,9 @@ class Evaluation:
         return self._described(table, {**units, **self.input_units})
 
     def _described(self, table: pd.DataFrame, units: Mapping[str, str]) -> pd.DataFrame:
-        table.attrs["units"] = {str(name): units[str(name)] for name in table}
+        from saleg.simulation.shown_table import Table
+
+        table = Table.of(table, {str(name): units[str(name)] for name in table})
         table.attrs["inputs"] = list(self.input_units)
         return table
 
@@ -126,7 +138,9 @@ def _values(points: pd.DataFrame) -> Iterator[Values]:
 
 def _rows(solver: Callable[[], Solver], points: Iterable[Values]) -> Columns:
     """Rows of a piece; each piece begins without memory."""
-    return rows_of(solver(), points)
+    fresh = solver()
+    columns = getattr(fresh, "columns", None)
+    return rows_of(fresh, points) if columns is None else columns(points)
 
 
 def _check(points: pd.DataFrame, evaluated: Evaluated) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
 
 #: Items sent to a worker at a time.
 CHUNK = 32
+#: The same of items that are worked on together, from which on more make no difference.
+MOST_TOGETHER = 128
+#: Pieces for each worker, if there are so many items, so that none waits long for the last one.
+PIECES = 4
 #: Columns that hold text.
 TEXT = ("status", "message", "method", "kind")
 #: What stands in a column where a row has no entry, by the type of its values.
@@ -38,6 +43,48 @@ def rows_of(row_of: Callable[[T], Row], items: Iterable[T]) -> Columns:
     """Rows of some items, column by column; an item that cannot even begin is a row too."""
     rows = [_row_or_reason(row_of, item) for item in items]
     return {name: _column(name, rows) for name in dict.fromkeys(itertools.chain(*rows))}
+
+
+def suitable_chunk(count: int | None, workers: int | None) -> int:
+    """Items to send at a time where they are worked on together, of so many if that is known."""
+    if count is None:
+        return MOST_TOGETHER
+    pieces = PIECES * (workers or os.cpu_count() or 1)
+    return min(max(-(-count // pieces), CHUNK), MOST_TOGETHER)
+
+
+def filled_up(
+    count: int, lots: Sequence[tuple[np.ndarray, Columns]], row_of: Callable[[int], Row]
+) -> Columns:
+    """Columns of some rows, of which some are known; the others are made one by one.
+
+    Parameters
+    ----------
+    count : int
+        Number of rows.
+    lots : sequence of (ndarray of int, dict of str to ndarray)
+        Places of the rows that are known, and their columns.
+    row_of : callable
+        Row of a place.
+    """
+    alone = np.full(count, True)
+    for places, _ in lots:
+        alone[places] = False
+    others = np.flatnonzero(alone)
+    return _put_together(count, [*lots, (others, rows_of(row_of, others.tolist()))])
+
+
+def _put_together(count: int, lots: Sequence[tuple[np.ndarray, Columns]]) -> Columns:
+    """Columns of some rows, given as lots of them and the places of their rows."""
+    names = dict.fromkeys(name for _, columns in lots for name in columns)
+    whole: Columns = {}
+    for name in names:
+        kind = kind_of(name)
+        whole[name] = np.full(count, MISSING[kind], dtype=kind)
+        for places, columns in lots:
+            if name in columns:
+                whole[name][places] = columns[name]
+    return whole
 
 
 def _row_or_reason(row_of: Callable[[T], Row], item: T) -> Row:
@@ -129,12 +176,10 @@ def _compiled_first(
 
 def table_of(parts: Mapping[int, Columns], units: Mapping[str, str]) -> pd.DataFrame:
     """Columns of pieces in the order of their numbers, with units in ``.attrs``."""
-    import pandas as pd
+    from saleg.simulation.shown_table import Table
 
     ordered = [parts[number] for number in sorted(parts)]
-    frame = pd.DataFrame({name: _joined(name, ordered) for name in units})
-    frame.attrs["units"] = dict(units)
-    return frame
+    return Table.of({name: _joined(name, ordered) for name in units}, units)
 
 
 def _joined(name: str, parts: Sequence[Columns]) -> np.ndarray:

@@ -20,6 +20,7 @@ from contextlib import nullcontext
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, TypeVar
 
+from saleg.errors import shown
 from saleg.quantities import is_whole
 from saleg.simulation.settings import SettingsError
 
@@ -50,12 +51,12 @@ def check_workers(executor: Executor | None, workers: int | None, chunk: int = 1
     """
     for name, value in (("workers", 1 if workers is None else workers), ("chunk", chunk)):
         if not is_whole(value, 1, 2**31 - 1):
-            raise WorkersError(f"{name} = {value!r}: must be a whole number >= 1")
+            raise WorkersError(f"{name} = {shown(value)}: must be a whole number >= 1")
     if executor is not None and (
         isinstance(executor, type) or not callable(getattr(executor, "submit", None))
     ):
         raise WorkersError(
-            f"executor = {executor!r}: must be an object with a method submit, as "
+            f"executor = {shown(executor)}: must be an object with a method submit, as "
             "ThreadPoolExecutor(2) is"
         )
 

@@ -133,7 +133,7 @@ def _check(options: argparse.Namespace, experiment: Experiment) -> None:
         return
     if not experiment.is_run:
         raise CommandError(f"--animate needs a single run, and {options.experiment} is none")
-    from saleg.plotting.animation import check_suffix
+    from saleg.plotting.animations import check_suffix
 
     check_suffix(options.animate)
 

@@ -16,6 +16,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
+from saleg.compiler import machine_code
+
 Result = TypeVar("Result")
 
 
@@ -100,11 +102,9 @@ class Kept(NamedTuple):
 
     def mended(self, action: Callable[[], Result]) -> Result:
         """Do what loads or compiles machine code; if what is there is damaged, without it."""
-        from numba.core.errors import NumbaError
-
         try:
             return action()
-        except NumbaError:
+        except machine_code.refusals():
             raise
         except Exception:
             for file in self._files():

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from saleg.compiler import plain, records
 from saleg.compiler.controllers import control_of, nobody
 from saleg.compiler.imported_text import NoSource, warn_if_edited
@@ -84,6 +86,15 @@ def compiled_engine(
     numbers = plain.plain_laws(laws) if plain.is_wanted() else records.parameters(laws)
     motored = motored_pressure or engine.needs_motored_pressure
     return CompiledEngine(_kernel(laws, modules, motored), numbers, control)
+
+
+def numbers_of_rows(engine: Engine, count: int) -> np.ndarray:
+    """Numbers of the laws of many engines, given as one of columns; shape (count, k)."""
+    numbers = records.numbers_of(_laws_in_order(engine, None))
+    rows = np.empty((count, len(numbers)))
+    for n, values in enumerate(numbers):
+        rows[:, n] = values
+    return rows
 
 
 def kernel_for(

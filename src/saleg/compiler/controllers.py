@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.compiler import plain
+from saleg.compiler import machine_code, plain
 from saleg.compiler.diagnosis import diagnosed
 from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.module import load
@@ -81,8 +81,6 @@ def _load(
 ) -> Any:
     """Compiled function of a choice of law classes in a certain state."""
     kinds = dict.fromkeys(zip(classes, lengths, strict=True))
-    from numba.core.errors import NumbaError
-
     injected: dict[str, Any] = {}
     try:
         text = _text(classes, lengths)
@@ -92,7 +90,7 @@ def _load(
     try:
         # What is compiled from bytecode is not kept: the text does not say all of it.
         return load(text, "controller", injected, keeps=not injected).module.entry
-    except NumbaError as error:
+    except machine_code.refusals() as error:
         own = [kind for kind in kinds if not is_ours(kind[0])]
         raise LawError(diagnosed(own, error)) from error
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,22 +16,18 @@ from saleg.compiler.text import COMPILED_HEADER, methods_text, own_text
 from saleg.laws.base import Law
 from saleg.laws.control.base import MEMORY
 
-if TYPE_CHECKING:
-    from numba.core.errors import NumbaError
-
-
 #: A law class with the lengths of its series.
 Kind = tuple[type[Law], Lengths]
 
 
-def diagnosed(laws: Sequence[Kind], error: NumbaError) -> str:
+def diagnosed(laws: Sequence[Kind], error: Exception) -> str:
     """Law, method and reason of an error of numba's.
 
     Parameters
     ----------
     laws : sequence of Kind
         Those that are not the library's.
-    error : NumbaError
+    error : Exception
         What it said of all together.
     """
     for law, lengths in laws:
@@ -46,8 +42,6 @@ def diagnosed(laws: Sequence[Kind], error: NumbaError) -> str:
 
 def _trouble(law: Any, lengths: Lengths, method: str, base: type[Law]) -> str:
     """What is wrong with one method; empty if nothing is."""
-    from numba.core.errors import NumbaError
-
     injected: dict[str, Any] = {}
     definitions = methods_text(law, method, "one", base, injected)
     parts = ["import math", "import numba", "import numpy as np", COMPILED_HEADER]
@@ -57,7 +51,7 @@ def _trouble(law: Any, lengths: Lengths, method: str, base: type[Law]) -> str:
     arguments = [np.zeros(1, record_of_kind(law, lengths))[0], *_shown(getattr(base, method))]
     try:
         machine_code.compile_for(function, machine_code.types_of(arguments))
-    except NumbaError as error:
+    except machine_code.refusals() as error:
         return f"cannot be compiled: {_reason(error)}"
     (signature,) = function.nopython_signatures
     wanted = getattr(base, method).__annotations__.get("return")

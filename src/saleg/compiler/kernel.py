@@ -66,7 +66,6 @@ class Kernel:
 
     def _compile(self, function: Callable[..., Any], kinds: machine_code.Types) -> None:
         """Compile an entry point or load it; what is damaged on disk is compiled afresh."""
-        from numba.core.errors import NumbaError
 
         def compile_now() -> None:
             machine_code.compile_for(function, kinds)
@@ -76,5 +75,5 @@ class Kernel:
                 compile_now()
             else:
                 self._kept.mended(compile_now)
-        except NumbaError as error:
+        except machine_code.refusals() as error:
             raise LawError(diagnosed(self._laws, error)) from error

@@ -41,6 +41,13 @@ def types_of(arguments: Sequence[Any]) -> Types:
     return tuple(typeof(argument) for argument in arguments)
 
 
+def refusals() -> tuple[type[Exception], ...]:
+    """Errors with which numba says that it cannot compile something."""
+    from numba.core.errors import NumbaError, UnsupportedBytecodeError
+
+    return NumbaError, UnsupportedBytecodeError
+
+
 def is_compiled(function: Any, types: Types) -> bool:
     """Whether a function is known to be compiled for arguments of some types."""
     return _result(function, types) is not None

@@ -19,14 +19,28 @@ from typing import Any
 
 import numpy as np
 
+from saleg import columns
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.records import OTHER_SLOTS
+from saleg.compiler.text import own_text
 from saleg.kernel import layout
 from saleg.kernel.decide import decide
 from saleg.kernel.tuples import Control
 from saleg.laws import Law
 from saleg.laws.arguments import Signals
 from saleg.laws.base import CHAMBER_SLOTS
+
+#: What sets up a run, as text.
+COLUMNS = (
+    "laws/arguments.py",
+    "kernel/copies.py",
+    "kernel/logarithms.py",
+    "kernel/layout.py",
+    "kernel/state.py",
+    "kernel/slots.py",
+    "kernel/rhs.py",
+    "kernel/switch.py",
+)
 
 
 def is_wanted() -> bool:
@@ -85,6 +99,21 @@ class PlainKernel(Kernel):
 def plain_kernel(modules: tuple[str, ...]) -> PlainKernel:
     """Kernel of some modules."""
     return PlainKernel(modules)
+
+
+@lru_cache(maxsize=1)
+def on_columns() -> SimpleNamespace:
+    """Functions of the kernel, by name, that take columns in the place of numbers.
+
+    The same text as everywhere; only the elementary functions are those of
+    :mod:`saleg.columns`.
+    """
+    names: dict[str, Any] = {"__name__": "saleg.kernel (columns)"}
+    names |= dict.fromkeys(("inline", "compiled", "cached"), lambda function: function)
+    for name in COLUMNS:
+        exec(compile(own_text(name), name, "exec"), names)
+    names |= {name: getattr(columns, name) for name in ("exp", "log", "sin")}
+    return SimpleNamespace(**names)
 
 
 def plain_laws(laws: Sequence[Law]) -> list[SimpleNamespace]:

@@ -40,7 +40,7 @@ class CompiledSearch(NamedTuple):
 
 def modules() -> tuple[str, ...]:
     """Modules of a kernel with the integrator that a search calls."""
-    return INTEGRATOR if _stands_alone() else INTEGRATOR_WITH_SEARCH
+    return INTEGRATOR if stands_alone() else INTEGRATOR_WITH_SEARCH
 
 
 def compiled_search(integrator: Kernel, arguments: Integration) -> CompiledSearch:
@@ -53,14 +53,14 @@ def compiled_search(integrator: Kernel, arguments: Integration) -> CompiledSearc
     arguments : Integration
         Arguments of the integrator.
     """
-    if not _stands_alone():
+    if not stands_alone():
         return CompiledSearch(integrator, arguments, 0)
     address = integrator.address("run_on", (arguments,))
     numbers = arguments.laws.view(np.float64)
     return CompiledSearch(_search(), arguments._replace(laws=numbers), address)
 
 
-def _stands_alone() -> bool:
+def stands_alone() -> bool:
     """Whether the integrator can be called by its address."""
     return machine_code.has_addresses() and not plain.is_wanted()
 

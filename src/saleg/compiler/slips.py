@@ -21,6 +21,15 @@ REFUSED = {
     ast.Yield: "yields; a law returns",
     ast.YieldFrom: "yields; a law returns",
     ast.Try: "tries; compiled code has no errors to catch: ask before with 'if'",
+    ast.TryStar: "tries; compiled code has no errors to catch: ask before with 'if'",
+    ast.NamedExpr: "names a value within an expression (':='); assign it on a line before",
+    ast.Delete: "deletes a name; leave it, or use another name",
+    ast.Dict: "uses a dictionary; a law has numbers only: choose with 'if'",
+    ast.DictComp: "uses a dictionary; a law has numbers only: choose with 'if'",
+    ast.Set: "uses a set; write a tuple, as in (1.0, 2.0)",
+    ast.SetComp: "uses a set; write a tuple, as in (1.0, 2.0)",
+    ast.ListComp: "uses a list; write a tuple, as in (1.0, 2.0)",
+    ast.GeneratorExp: "loops within an expression; write the loop",
     ast.With: "opens a context; a law may not",
     ast.ClassDef: "defines a class inside; a law may not",
 }
@@ -43,6 +52,10 @@ def check_statements(tree: ast.FunctionDef, owner: str) -> None:
             names = getattr(node, "names", ())
             what = ", ".join(getattr(item, "name", item) for item in names)
             raise LawError(f"{owner} {why}{f': {what}' if what else ''}")
+        if isinstance(node, ast.List) and isinstance(node.ctx, ast.Load):
+            raise LawError(f"{owner} uses a list; write a tuple, as in (1.0, 2.0)")
+        if isinstance(node, ast.Starred) and not isinstance(node.ctx, ast.Load):
+            raise LawError(f"{owner} gathers values with '*'; name each of them")
         if "random" in (getattr(node, "attr", ""), getattr(node, "id", "")):
             raise LawError(f"{owner} draws random numbers; a law gives one number for one state")
         if isinstance(node, ast.Attribute) and not isinstance(node.ctx, ast.Load):

@@ -57,6 +57,7 @@ SEARCH = (
     "kernel/layout.py",
     "kernel/state.py",
     "kernel/orbit.py",
+    "kernel/orbits.py",
     "compiler/run_at.py",
 )
 INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "run_plainly")

@@ -10,6 +10,7 @@ import numpy as np
 
 from saleg.errors import ControllerError, InvalidController
 from saleg.files.reading import read_text
+from saleg.laws.usual import POWER, TIME
 from saleg.quantities import Problem, Quantities, problems, series
 
 
@@ -35,8 +36,8 @@ class Demand(Quantities):
     (2.0, 2.0)
     """
 
-    times: tuple[float, ...] = series("s", never_falling=True)
-    powers: tuple[float, ...] = series("W", low=0, length="times")
+    times: tuple[float, ...] = series("s", never_falling=True, usual=TIME)
+    powers: tuple[float, ...] = series("W", low=0, length="times", usual=POWER)
 
     def __post_init__(self) -> None:
         """Check both series."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.checks import FLAG, NUMBER, ONE_OR_MORE, POSITIVE, a, checked, each, whole
 from saleg.control.running import motor_returns, simulate, simulate_many
 from saleg.engine import Engine, check_controller, check_engine
 from saleg.engine.controller import Controller
@@ -20,7 +21,6 @@ from saleg.laws.control.fuel import FuelCut
 from saleg.laws.control.load import ScaledLoad
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold
-from saleg.quantities import is_number
 from saleg.simulation.indicators import stroke_compression_ratios
 from saleg.simulation.run import Run
 from saleg.simulation.settings import SettingsError
@@ -40,6 +40,7 @@ FOR_EVER = 1e12
 RECOVERED = 0.02
 
 
+@checked(engine=a(Engine), frequencies=ONE_OR_MORE, amplitudes=ONE_OR_MORE, duration=POSITIVE)
 def motored(
     engine: Engine,
     frequencies: Sequence[float],
@@ -69,7 +70,14 @@ def motored(
     """
     import pandas as pd
 
-    pairs = np.broadcast_arrays(*(np.atleast_1d(v) for v in (frequencies, amplitudes)))
+    given = np.atleast_1d(frequencies), np.atleast_1d(amplitudes)
+    counts = [len(values) for values in given]
+    if counts[0] != counts[1] and 1 not in counts:
+        raise SettingsError(
+            f"{counts[0]} frequencies and {counts[1]} amplitudes: must be as many, or a single one "
+            "of either"
+        )
+    pairs = np.broadcast_arrays(*given)
     check_engine(engine)
     at_rest = engine.replace(start=AtRest())
     controllers = [
@@ -103,6 +111,12 @@ def motored(
     return frame
 
 
+@checked(
+    engine=a(Engine),
+    base_frequency=NUMBER,
+    duration=POSITIVE,
+    controller=a(Controller).optional,
+)
 def start_up(
     engine: Engine,
     base_frequency: float = 30.0,
@@ -167,6 +181,7 @@ def _from_rest(engine: Engine, controller: Controller, duration: float, settings
     return simulate(engine.replace(start=AtRest()), controller, duration, **settings)
 
 
+@checked(engine=a(Engine), at=NUMBER, duration=POSITIVE)
 def fuel_cut(engine: Engine, *, at: float = 1.5, duration: float = 3.0, **settings: Any) -> Run:
     """Start an engine up, run it and cut its fuel for good: it rings down (Fig. 106).
 
@@ -191,6 +206,14 @@ def fuel_cut(engine: Engine, *, at: float = 1.5, duration: float = 3.0, **settin
     return _from_rest(engine, controller, duration, settings)
 
 
+@checked(
+    engine=a(Engine),
+    begin=NUMBER,
+    end=NUMBER,
+    factor=NUMBER,
+    duration=POSITIVE,
+    late_ignition=FLAG,
+)
 def overload(
     engine: Engine,
     *,
@@ -230,6 +253,7 @@ def overload(
     return simulate(changed, controller, duration, **settings)
 
 
+@checked(engine=a(Engine), strokes=whole(1), at=NUMBER, motor=FLAG, duration=POSITIVE)
 def misfire(
     engine: Engine,
     *,
@@ -260,7 +284,7 @@ def misfire(
     Run
         :func:`recovery_time` says how long it took.
     """
-    if is_number(duration) and is_number(at) and not duration > at:
+    if not duration > at:
         raise SettingsError(f"duration = {duration!r}: must be > at ({at:g} s)")
     controller = rapid_start(
         state_logic=CompressionThreshold(latched=0.0 if motor else 1.0),
@@ -269,6 +293,7 @@ def misfire(
     return _from_rest(engine, controller, duration, settings)
 
 
+@checked(run=a(Run), at=NUMBER)
 def recovery_time(run: Run, at: float) -> float:
     """Time from a disturbance until the compression ratio stays where it was before.
 
@@ -296,6 +321,9 @@ def recovery_time(run: Run, at: float) -> float:
     return float(t[last[-1] + 1] - at) if len(last) else 0.0
 
 
+@checked(
+    engine=a(Engine), strokes=each(whole(1), "whole numbers >= 1"), at=NUMBER, duration=POSITIVE
+)
 def misfires(
     engine: Engine,
     strokes: Sequence[int],
@@ -312,7 +340,7 @@ def misfires(
     strokes : sequence of int
         Numbers of strokes without fuel.
     at, duration : float
-        As for :func:`misfire`.
+        As for :func:`misfire` [s].
     **settings
         Further settings of :func:`saleg.control.simulate`.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from saleg.checks import NUMBER, POSITIVE, a, checked
 from saleg.control.demand import Demand
 from saleg.control.experiments import RAPID, rapid_start, start_up
 from saleg.control.maps import OperatingMap, fuel_map, intake_map
@@ -19,6 +20,13 @@ from saleg.steady.solver import steady_state
 Law = TypeVar("Law")
 
 
+@checked(
+    engine=a(Engine),
+    load_control=a(LoadControl).optional,
+    intake_control=a(IntakeControl).optional,
+    fuel_control=a(FuelControl).optional,
+    duration=POSITIVE,
+)
 def follow_demand(
     engine: Engine,
     *,
@@ -53,6 +61,13 @@ def follow_demand(
     return start_up(engine, RAPID, duration=duration, controller=controller, **settings)
 
 
+@checked(
+    engine=a(Engine),
+    demand=a(Demand),
+    share=NUMBER,
+    proportional_gain=NUMBER,
+    integral_gain=NUMBER,
+)
 def demand_by_load(
     engine: Engine,
     demand: Demand,
@@ -70,7 +85,7 @@ def demand_by_load(
     demand : Demand
         Power over time.
     share, proportional_gain, integral_gain : float
-        Of :class:`saleg.laws.PowerDemand`; the dissertation gives none of them.
+        Of :class:`saleg.laws.PowerDemand` [-, -, 1/s]; the dissertation gives none of them.
     **settings
         Duration and further settings of :func:`follow_demand`.
 
@@ -89,6 +104,13 @@ def demand_by_load(
     return follow_demand(engine, load_control=law, **settings)
 
 
+@checked(
+    engine=a(Engine),
+    demand=a(Demand),
+    gain=NUMBER,
+    known=a(OperatingMap).optional,
+    load_control=a(LoadControl).optional,
+)
 def demand_by_intake(
     engine: Engine,
     demand: Demand,
@@ -122,6 +144,7 @@ def demand_by_intake(
     return follow_demand(engine, intake_control=law, load_control=load_control, **settings)
 
 
+@checked(engine=a(Engine), demand=a(Demand), gain=NUMBER, known=a(OperatingMap).optional)
 def demand_by_fuel(
     engine: Engine,
     demand: Demand,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saleg.batch.many import steady_states
+from saleg.checks import SERIES, TEXT, a, checked
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import InvalidController
@@ -58,12 +59,12 @@ class OperatingMap:
 
     @property
     def lowest(self) -> float:
-        """Least value of the quantity among them (SI)."""
+        """Least value of the quantity among them, in its SI unit."""
         return float(self._usable()[self.path].min())
 
     @property
     def highest(self) -> float:
-        """Greatest value of the quantity among them (SI)."""
+        """Greatest value of the quantity among them, in its SI unit."""
         return float(self._usable()[self.path].max())
 
     def _usable(self) -> pd.DataFrame:
@@ -81,6 +82,7 @@ def _stable(table: pd.DataFrame) -> pd.Series:
     return (table.status == str(Status.STEADY)) & table.stable
 
 
+@checked(engine=a(Engine), path=TEXT, values=SERIES)
 def operating_map(
     engine: Engine,
     path: str,
@@ -120,6 +122,7 @@ def operating_map(
     return OperatingMap(path, table)
 
 
+@checked(engine=a(Engine))
 def intake_map(engine: Engine, *, executor: Executor | None = None) -> OperatingMap:
     """Map over the intake temperature, from that of the engine up to where orbits end (Fig. 101).
 
@@ -145,6 +148,7 @@ def intake_map(engine: Engine, *, executor: Executor | None = None) -> Operating
     return _to_the_end(engine, "intake.temperature", rated, TEMPERATURE_STEP, executor)
 
 
+@checked(engine=a(Engine))
 def fuel_map(engine: Engine, *, executor: Executor | None = None) -> OperatingMap:
     """Map over the equivalence ratio, from that of the engine down to where orbits end (Fig. 104).
 
@@ -180,6 +184,7 @@ def _to_the_end(
     return OperatingMap(path, table.iloc[: lost + 1])
 
 
+@checked(engine=a(Engine), temperatures=SERIES, ratios=SERIES)
 def operating_grid(
     engine: Engine,
     temperatures: Sequence[float],

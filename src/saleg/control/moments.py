@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.kernel import layout
 from saleg.simulation.run import Run
 
@@ -34,6 +35,7 @@ def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
     return [(int(first), int(last)) for first, last in zip(begins, ends, strict=True)]
 
 
+@checked(run=a(Run))
 def ports_opened_at(run: Run) -> float:
     """When a port first opened [s]; NaN if never, or no longer recorded.
 
@@ -49,6 +51,7 @@ def ports_opened_at(run: Run) -> float:
     return float(opened[0]) if len(opened) else math.nan
 
 
+@checked(run=a(Run))
 def motored_times(run: Run) -> list[tuple[float, float]]:
     """Begin and end of every stretch of strokes in which the alternator was a motor [s].
 
@@ -63,6 +66,7 @@ def motored_times(run: Run) -> list[tuple[float, float]]:
     return _times(run, run.strokes["motoring"] > 0.0)
 
 
+@checked(run=a(Run))
 def fuel_cuts(run: Run) -> list[tuple[float, float]]:
     """Begin and end of every stretch of strokes without motor that composed no fuel [s].
 
@@ -78,6 +82,7 @@ def fuel_cuts(run: Run) -> list[tuple[float, float]]:
     return _times(run, (strokes["motoring"] == 0.0) & (strokes["equivalence_ratio"] == 0.0))
 
 
+@checked(run=a(Run))
 def first_misfire(run: Run) -> float:
     """When a charge with fuel first failed to light [s], at its dead centre; NaN if none did.
 
@@ -100,6 +105,7 @@ def first_misfire(run: Run) -> float:
     return math.nan
 
 
+@checked(run=a(Run))
 def late_ignitions(run: Run) -> np.ndarray:
     """When charges lit that had missed their dead centre before [s].
 

@@ -68,9 +68,8 @@ class Plant:
         actuators: ActuatorLaw | None = None,
         **settings: Any,
     ):
-        controller = Controller(actuators=actuators or Actuators())
-        self._begin(course_of(engine, controller, duration, layout.IN_PYTHON, settings))
-        warn_of_unusual(engine)
+        self._begin(plant_course(engine, duration, actuators, settings))
+        warn_of_unusual(engine, actuators=actuators)
 
     @classmethod
     def _again(cls, course: Course) -> Plant:
@@ -229,6 +228,14 @@ class ReplayOfCommands(Replay):
                 plant.command(log[stroke])
             plant.advance()
         return plant.run()
+
+
+def plant_course(
+    engine: Engine, duration: float, actuators: ActuatorLaw | None, settings: Any
+) -> Course:
+    """Start a run that is commanded from Python, within the limits of actuators."""
+    controller = Controller(actuators=actuators or Actuators())
+    return course_of(engine, controller, duration, layout.IN_PYTHON, settings)
 
 
 def course_of(

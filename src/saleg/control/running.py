@@ -10,18 +10,19 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from saleg.batch.many import RUN_UNITS, batch_table, run_row
-from saleg.batch.table import CHUNK, Row
+from saleg.batch.table import CHUNK, Row, rows_of
+from saleg.checks import NUMBER, a, checked
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
-from saleg.control.plant import InPython, Plant, course_of, give
+from saleg.control.plant import InPython, Plant, course_of, give, plant_course
 from saleg.control.sensors import Measurement, Sensors, measured
 from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
-from saleg.errors import ControllerError
+from saleg.errors import ControllerError, shown
 from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import ActuatorLaw
-from saleg.quantities import as_float
+from saleg.quantities import as_float, unusual
 from saleg.simulation.indicators import beyond_ports
 from saleg.simulation.run import Run
 from saleg.simulation.settings import SettingsError
@@ -109,9 +110,9 @@ def simulate(
     laws = isinstance(controller, Controller)
     in_python = sensors is not None or sample_time is not None
     if sensors is not None and not isinstance(sensors, Sensors):
-        raise SettingsError(f"sensors = {sensors!r}: must be a saleg.control.Sensors")
+        raise SettingsError(f"sensors = {shown(sensors)}: must be a saleg.control.Sensors")
     if compiled is not None and not isinstance(compiled, (bool, np.bool_)):
-        raise SettingsError(f"compiled = {compiled!r}: must be True, False or None")
+        raise SettingsError(f"compiled = {shown(compiled)}: must be True, False or None")
     if compiled is None:
         compiled = laws and not in_python
     if compiled and (in_python or not laws):
@@ -120,20 +121,22 @@ def simulate(
         raise SettingsError("actuators: a Controller has its own; replace those")
     if compiled and isinstance(controller, Controller):
         run = _compiled(engine, controller, duration, settings)
-        warn_of_unusual(engine)
+        warn_of_unusual(engine, controller=controller)
         return run
     if sample_time is not None:
         sample_time = _checked_sample_time(sample_time, duration)
     acting: Acts
+    limits: ActuatorLaw | None
     if isinstance(controller, Controller):
         controller.validate()
-        acting, actuators = InPython(controller), controller.actuators
+        acting, limits = InPython(controller), controller.actuators
     else:
-        acting = controller
+        acting, limits = controller, actuators
     if not callable(getattr(acting, "act", None)):
         raise SettingsError(f"{type(controller).__name__} has no method act(signals)")
-    plant = Plant(engine, duration, actuators=actuators, **settings)
+    plant = Plant._again(plant_course(engine, duration, limits, settings))
     measurement = Measurement(sensors or Sensors(), engine)
+    warn_of_unusual(engine, controller=controller, actuators=actuators, sensors=sensors)
     return _in_python(plant, acting, measurement if sensors else None, sample_time)
 
 
@@ -142,7 +145,9 @@ def _checked_sample_time(sample_time: float, duration: float) -> float:
     interval, lasts = as_float(sample_time), as_float(duration)
     least = (lasts or 0.0) / MAX_SAMPLES
     if interval is None or not interval >= least or not interval > 0.0:
-        raise SettingsError(f"sample_time = {sample_time!r}: must be a number >= {least:g} [s]")
+        raise SettingsError(
+            f"sample_time = {shown(sample_time)}: must be a number >= {least:g} [s]"
+        )
     return interval
 
 
@@ -191,6 +196,7 @@ def described(error: Exception) -> str:
         return type(error).__name__
 
 
+@checked(signals=a(Signals))
 def generator(signals: Signals, **changes: float) -> Commands:
     """Commands for a generator at rated fuel and intake, loaded as its regulator asks.
 
@@ -218,6 +224,7 @@ def generator(signals: Signals, **changes: float) -> Commands:
     return plain._replace(**changes)
 
 
+@checked(signals=a(Signals), amplitude=NUMBER, frequency=NUMBER)
 def motor(signals: Signals, amplitude: float, frequency: float, **changes: float) -> Commands:
     """Commands for a motor without fuel; its angle goes on from where it is.
 
@@ -276,7 +283,9 @@ def simulate_many(
     if settings.get("keep_cycles") is not None:
         raise SettingsError("keep_cycles: the table looks back to the start; leave it out")
     row_of: Callable[[Any], Row] = partial(_control_row, duration=duration, settings=settings)
-    return batch_table(row_of, pairs, CONTROL_UNITS, _kernel_of, executor, workers, chunk)
+    return batch_table(
+        partial(rows_of, row_of), pairs, CONTROL_UNITS, _kernel_of, executor, workers, chunk
+    )
 
 
 def _kernel_of(pair: tuple[Engine, Controller]) -> Any:
@@ -288,8 +297,11 @@ def _control_row(pair: tuple[Engine, Controller], duration: float, settings: Any
     """Row of a run under a controller."""
     run = _compiled(pair[0], pair[1], duration, settings)
     beyond = beyond_ports(run.engine, run.strokes)
+    row = run_row(run)
+    odd = [f"unusual: {problem}" for problem in unusual(pair[1], "controller")]
     return {
-        **run_row(run),
+        **row,
+        "message": "; ".join([str(row["message"]), *odd]),
         "fired_at": fired_at(run),
         "motor_returns": float(motor_returns(run)),
         "strokes": float(len(run.strokes)),
@@ -305,6 +317,7 @@ def motored_share(run: Run) -> float:
     return float(np.mean(run.strokes["motoring"] > 0.0)) if len(run.strokes) else math.nan
 
 
+@checked(run=a(Run))
 def fired_at(run: Run) -> float:
     """When the motor was first left for fuel and load [s]; NaN if never, or no longer recorded.
 
@@ -320,6 +333,7 @@ def fired_at(run: Run) -> float:
     return float(off[0]) if len(off) else math.nan
 
 
+@checked(run=a(Run))
 def motor_returns(run: Run) -> int:
     """Number of times the motor came back after the engine had been fired.
 

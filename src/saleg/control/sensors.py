@@ -13,6 +13,7 @@ from saleg.errors import InvalidController
 from saleg.kernel import layout
 from saleg.kernel.control import write_signals
 from saleg.laws.arguments import Signals, Stroke
+from saleg.laws.usual import GAP
 from saleg.quantities import Quantities, problems, quantity
 from saleg.simulation.indicators import compression_ratio
 from saleg.simulation.initial_state import State
@@ -42,8 +43,8 @@ class Sensors(Quantities):
         Of the noise; equal seeds give equal noise.
     """
 
-    position_noise: float = quantity("m", default=0.0, low=0)
-    position_resolution: float = quantity("m", default=0.0, low=0)
+    position_noise: float = quantity("m", default=0.0, low=0, usual=GAP)
+    position_resolution: float = quantity("m", default=0.0, low=0, usual=GAP)
     time_resolution: float = quantity("s", default=0.0, low=0)
     power_noise: float = quantity("W", default=0.0, low=0)
     power_resolution: float = quantity("W", default=0.0, low=0)

@@ -183,9 +183,11 @@ class Design:
 
     def _place(self, path: str) -> tuple[Any, tuple[str, ...] | None]:
         """Where a path leads in parameters or masses; no chain if it is one of the engine's."""
+        if not isinstance(path, str):
+            raise UnknownPath(f"a path is text, not {type(path).__name__}")
         if path in NAMES:
             return self.parameters, (path,)
-        first, _, rest = str(path).partition(".")
+        first, _, rest = path.partition(".")
         if first == MASSES:
             chain = tuple(rest.split("."))
             if not exists(self.masses, chain):
@@ -195,6 +197,14 @@ class Design:
             hint = nearest(path, [*NAMES, *known_paths(self.laws)])
             raise UnknownPath(f"no '{path}' in a design{hint}")
         return self.laws, None
+
+    def __repr__(self) -> str:
+        return f"<Design of {self.laws.name!r}: {self.parameters}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import design_card
+
+        return design_card(self)
 
     def validate(self) -> None:
         """Raise one error naming every wrong field of parameters, masses and laws.

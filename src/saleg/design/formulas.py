@@ -1,9 +1,18 @@
-"""Eq. 60-67: dimensions and masses of the components, one function per equation (4.1)."""
+"""Eq. 60-67: dimensions and masses of the components, one function per equation (4.1).
+
+Each takes numbers or arrays of them, and names every other argument in a
+:class:`saleg.errors.WrongArguments`.
+"""
 
 from __future__ import annotations
 
 import math
 
+from saleg.checks import checked, numbers
+
+#: What any length, mass or speed must be, and what something is divided by.
+SOME = numbers(0.0)
+MORE = numbers(0.0, open_low=True)
 #: Specific thrust force of the alternator, f_xr [N/m^2] (Eq. 60).
 SPECIFIC_THRUST = 1.32e4
 #: Length of a bearing and the piston skirt next to it [m] (Eq. 63).
@@ -14,6 +23,14 @@ SKIRT_LENGTH = 0.008
 ROD_AREA = 75e-6
 
 
+@checked(
+    power=SOME,
+    pole_pitch=MORE,
+    mean_speed=MORE,
+    poles=MORE,
+    specific_thrust=MORE,
+    efficiency=MORE,
+)
 def alternator_diameter(
     power: float,
     pole_pitch: float,
@@ -49,8 +66,8 @@ def alternator_diameter(
 
     Raises
     ------
-    ZeroDivisionError
-        If pitch or speed are zero.
+    WrongArguments
+        Naming every argument that is no number, or zero where something is divided by it.
 
     Examples
     --------
@@ -60,6 +77,7 @@ def alternator_diameter(
     return power / (math.pi * poles * pole_pitch * specific_thrust * mean_speed * efficiency)
 
 
+@checked(stroke=SOME, frequency=SOME)
 def mean_speed(stroke: float, frequency: float) -> float:
     """Mean speed of the translator [m/s] (Eq. 61): ``v = 2 S f``.
 
@@ -82,6 +100,7 @@ def mean_speed(stroke: float, frequency: float) -> float:
     return 2.0 * stroke * frequency
 
 
+@checked(mover_half_length=SOME, half_stroke=SOME)
 def bearing_position(mover_half_length: float, half_stroke: float) -> float:
     """Distance L_B from midpoint to inner rod bearing [m] (Eq. 62): ``L_B = L_A + L``.
 
@@ -104,6 +123,7 @@ def bearing_position(mover_half_length: float, half_stroke: float) -> float:
     return mover_half_length + half_stroke
 
 
+@checked(bearing=SOME, crankcase=SOME)
 def crown_position(bearing: float, crankcase: float = 0.0) -> float:
     """Distance L_P from midpoint to piston crown [m] (Eq. 63): ``L_P = L_B + 14 mm``.
 
@@ -129,6 +149,7 @@ def crown_position(bearing: float, crankcase: float = 0.0) -> float:
     return bearing + crankcase + BEARING_LENGTH
 
 
+@checked(port_location=SOME, half_stroke=SOME, crown=SOME)
 def port_position(port_location: float, half_stroke: float, crown: float) -> float:
     """Distance L_po from midpoint to the opening edge of the ports [m] (Eq. 64).
 
@@ -156,6 +177,7 @@ def port_position(port_location: float, half_stroke: float, crown: float) -> flo
     return port_location * 2.0 * half_stroke + (crown - half_stroke)
 
 
+@checked(port_location=SOME, half_stroke=SOME)
 def port_clearance(port_location: float, half_stroke: float) -> float:
     """Clearance d_po between crown and head at which the ports close [m].
 
@@ -180,6 +202,7 @@ def port_clearance(port_location: float, half_stroke: float) -> float:
     return 2.0 * half_stroke * (1.0 - port_location)
 
 
+@checked(bore=SOME)
 def piston_mass(bore: float) -> float:
     """Mass of both piston heads [kg] (Eq. 65): ``82.3 b^2 + 0.0136 b - 8.16e-5``.
 
@@ -202,6 +225,7 @@ def piston_mass(bore: float) -> float:
     return 82.3 * bore**2 + 0.0136 * bore - 8.16e-5
 
 
+@checked(crown=SOME, per_length=SOME)
 def rod_mass(crown: float, per_length: float = 0.585) -> float:
     """Mass of the connecting rod [kg] (Eq. 66): ``0.585 * 2 (L_P - 8 mm)``.
 
@@ -224,6 +248,7 @@ def rod_mass(crown: float, per_length: float = 0.585) -> float:
     return per_length * 2.0 * (crown - SKIRT_LENGTH)
 
 
+@checked(stiffness=SOME, per_stiffness=SOME)
 def spring_mass(stiffness: float, per_stiffness: float = 10.0 / 350e3) -> float:
     """Moving mass of the springs [kg] (Eq. 67): ``10 / 350000 k``.
 

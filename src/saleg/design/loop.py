@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.design.designs import Design, InvalidDesign
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
@@ -72,6 +73,7 @@ class Spent(NamedTuple):
     evaluations: int = 0
 
 
+@checked(near=a(DesignedState).optional)
 def solve(
     design: Design,
     *,
@@ -85,7 +87,7 @@ def solve(
     ----------
     design : Design
     rtol : float
-        Tolerance of the integrator, of the state after a return, and of the mass.
+        Tolerance of the integrator, of the state after a return, and of the mass [-].
     near : DesignedState, optional
         A neighbour's orbit to start from, which follows its branch where there are several.
     effort : Effort
@@ -172,7 +174,7 @@ def evaluate(
     design : Design, optional
         Laws, mass models and parameters not given; those of Chapter 4 unless given.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     effort : Effort
         As for :func:`solve`.
     **values
@@ -207,7 +209,7 @@ def check_design(design: Any) -> None:
 
 
 def _mass(design: Design, operation: Operation) -> float:
-    return float(design.masses.masses(design.parameters, operation).total)
+    return design.masses.masses(design.parameters, operation).total
 
 
 def _charts(
@@ -245,8 +247,9 @@ def _first_orbit(
             again = _closed(design, sharper, finer(rtol), way, quick)
             anew = sharper.evaluations - chart.evaluations
             spent = Spent(spent.half_cycles + again.half_cycles, spent.evaluations + anew)
-            if again.found:
-                chart, orbit, rtol = sharper, again, finer(rtol)
+            if not again.found:
+                continue
+            chart, orbit, rtol = sharper, again, finer(rtol)
         steady = result_of(chart, *spent, orbit.residual, "fixed point", rtol)
         return DesignedState.of(steady, design, orbit.operation), spent
     return None, spent
@@ -368,10 +371,16 @@ def _set_mass(state: State, design: Design, operation: Operation) -> None:
 
 
 def _set_law(state: State, design: Design, operation: Operation) -> None:
-    """Tell the map how the mass follows from stroke S and work W of a stroke.
+    """Tell the map how the mass follows from stroke and work, anew after every orbit."""
+    for name, value in zip(LAW, mass_law(design, operation), strict=True):
+        state.engine[name] = value
+
+
+def mass_law(design: Design, operation: Operation) -> tuple[float, float, float]:
+    """Numbers m_0, m_S and m_W of the mass as it follows from stroke S and work W of a stroke.
 
     ``m_0 + m_S S + m_W W^2 / S^3`` is what Eq. 60-67 come to; other mass models are given its
-    tangent at an operation, anew after every orbit.
+    tangent at an operation.
     """
     S, W = operation.stroke, 0.5 * operation.power / operation.frequency
     total = _mass(design, operation)
@@ -383,9 +392,7 @@ def _set_law(state: State, design: Design, operation: Operation) -> None:
     per_work = by_work / (load * ((1.0 + STEP) ** 2 - 1.0)) if load > 0.0 else 0.0
     per_stroke = by_stroke - per_work * load * ((1.0 + STEP) ** -3 - 1.0) / (STEP * S)
     fixed = total - per_stroke * S - per_work * load
-    values = (fixed, per_stroke, per_work) if fixed > 0.0 else (total, 0.0, 0.0)
-    for name, value in zip(LAW, values, strict=True):
-        state.engine[name] = value
+    return (fixed, per_stroke, per_work) if fixed > 0.0 else (total, 0.0, 0.0)
 
 
 def _give_mass(chart: ReturnMap) -> None:
@@ -396,8 +403,13 @@ def _give_mass(chart: ReturnMap) -> None:
 
 
 def _closed_message(state: DesignedState) -> DesignedState:
-    state.message += f"; the mass of the components is that of the orbit to {state.mass_error:.1e}"
+    state.message += closed_message(state.mass_error)
     return state
+
+
+def closed_message(mass_error: float) -> str:
+    """How well the mass of the components is that of the orbit."""
+    return f"; the mass of the components is that of the orbit to {mass_error:.1e}"
 
 
 def _continued_message(state: DesignedState) -> DesignedState:

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from saleg.batch.many import STABILITY_UNITS, steady_row
 from saleg.batch.points import Values, evaluated_points, refuse_parts
-from saleg.batch.table import CHUNK, Row
+from saleg.batch.table import Columns, Row, filled_up
 from saleg.design.designs import Design
 from saleg.design.loop import check_design, solve
 from saleg.design.results import COMPONENT_UNITS, DesignedState
-from saleg.design.score import Score
+from saleg.design.together import scores, solved_together
 from saleg.steady.solver import Effort, check_effort, check_tolerance
 
 if TYPE_CHECKING:
@@ -33,7 +35,7 @@ class DesignSolver:
     design : Design
         What the values of a row replace something of.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state.
     warm : bool
@@ -63,6 +65,15 @@ class DesignSolver:
         return design_row(found, self._multipliers)
 
 
+class DesignSolverOfColumns(DesignSolver):
+    """The same of designs that are independent of each other, without their stability."""
+
+    def columns(self, points: Sequence[Values]) -> Columns:
+        """Rows of some designs, column by column."""
+        together = solved_together(self._design, points, self._rtol, self._effort)
+        return filled_up(len(points), together, lambda place: self(points[place]))
+
+
 @dataclass(frozen=True)
 class EvaluatedDesign:
     """A design of which points replace parameters, or paths of the engine and the mass models."""
@@ -83,11 +94,13 @@ class EvaluatedDesign:
 
     def refuse_clash(self, names: Iterable[str]) -> None:
         """Refuse inputs of which two stand for one number."""
-        self.design.replace(dict.fromkeys(names, math.nan))
+        self.design.replace({name: self.design.get(name) for name in names})
 
     def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> DesignSolver:
         """What makes a row of a point; may remember the point before."""
-        return DesignSolver(self.design, rtol, multipliers, warm, effort)
+        alone = multipliers or warm
+        kind = DesignSolver if alone else DesignSolverOfColumns
+        return kind(self.design, rtol, multipliers, warm, effort)
 
 
 def design_row(found: DesignedState, multipliers: bool) -> Row:
@@ -96,7 +109,7 @@ def design_row(found: DesignedState, multipliers: bool) -> Row:
     row |= found.component_figures
     if not found.found:
         row["moving_mass"] = math.nan  # of what was simulated, a guess
-    row["score"] = float(Score()(row))
+    row["score"] = float(scores({name: np.array([value]) for name, value in row.items()})[0])
     return row
 
 
@@ -109,7 +122,7 @@ def evaluate_many(
     effort: Effort = Effort.THOROUGH,
     executor: Executor | None = None,
     workers: int | None = None,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
 ) -> pd.DataFrame:
     """Evaluate many designs.
 
@@ -121,7 +134,7 @@ def evaluate_many(
     design : Design, optional
         Those of Chapter 4 unless given.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     effort : Effort

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
+from saleg.columns import Column
 from saleg.design import formulas
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
@@ -159,7 +160,13 @@ class AirSprings:
 
 
 class Masses(NamedTuple):
-    """Moving masses by component [kg]."""
+    """Moving masses by component.
+
+    Attributes
+    ----------
+    alternator, pistons, rod, springs : float
+        Mass of the mover, both heads, the rod, and the moving share of the springs [kg].
+    """
 
     alternator: float
     pistons: float
@@ -235,9 +242,11 @@ class MassModel:
         """
         found = [getattr(self, name).mass(parameters, operation) for name in Masses._fields]
         for name, mass in zip(Masses._fields, found, strict=True):
-            if not is_number(mass) or not 0.0 <= float(mass) < math.inf:
+            known = isinstance(mass, Column) or is_number(mass)
+            if not known or not 0.0 <= mass < math.inf:
                 raise InvalidMass(
                     f"masses.{name}: {type(getattr(self, name)).__name__}.mass gave {mass!r} at "
                     f"{operation}; it must give a number >= 0 [kg]"
                 )
-        return Masses(*map(float, found))
+        plain: list[Any] = [m if isinstance(m, Column) else float(m) for m in found]
+        return Masses(*plain)

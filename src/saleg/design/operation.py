@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from saleg.columns import column
 from saleg.design.formulas import mean_speed
 from saleg.engine.start import standard_charge
 
@@ -41,18 +42,20 @@ class Operation(NamedTuple):
 
     @classmethod
     def of_strokes(cls, strokes: np.ndarray) -> Operation:
-        """Mean over some rows of STROKE_RECORD."""
-        duration = float(strokes["duration"].sum())
-        return cls(
-            stroke=float(np.abs(strokes["x_end"] - strokes["x_start"]).mean()),
-            frequency=0.5 * len(strokes) / duration,
-            power=float(strokes["electrical_energy"].sum()) / duration,
+        """Mean over some rows of STROKE_RECORD; over each of many, columns."""
+        lengths = np.abs(strokes["x_end"] - strokes["x_start"])
+        duration = strokes["duration"].sum(axis=-1)
+        means = (
+            lengths.mean(axis=-1),
+            0.5 * strokes.shape[-1] / duration,
+            strokes["electrical_energy"].sum(axis=-1) / duration,
         )
+        return cls(*map(float if strokes.ndim == 1 else column, means))
 
     @classmethod
     def guess(cls, engine: Engine) -> Operation:
         """Where an engine should run: at its target stroke, with a third of its fuel's energy."""
-        depth = float(getattr(engine.alternator, "target_stroke", 0.9))
+        depth = getattr(engine.alternator, "target_stroke", 0.9)
         charge = standard_charge(engine.left)[1] * engine.left.fuel.lower_heating_value  # type: ignore[attr-defined]
         energy = GUESSED_EFFICIENCY * 2.0 * charge
         return cls(

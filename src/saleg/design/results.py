@@ -11,13 +11,14 @@ from saleg.design.designs import Design
 from saleg.design.geometry import Geometry
 from saleg.design.masses import Masses
 from saleg.design.operation import Operation
-from saleg.fundamental.bridge import from_engine
+from saleg.engine import Engine
+from saleg.fundamental.bridge import groups_of
 from saleg.simulation.performance import Performance
 from saleg.status import Status
 from saleg.steady.solver import SteadyState
 
 
-@dataclass(eq=False, kw_only=True)
+@dataclass(eq=False, kw_only=True, repr=False)
 class DesignedState(SteadyState):
     """Steady state of a design, with masses and dimensions that follow from it.
 
@@ -26,6 +27,7 @@ class DesignedState(SteadyState):
     Attributes
     ----------
     design : Design
+        What was evaluated.
     operation : Operation
         Stroke, frequency and power the components were sized for.
     masses : Masses
@@ -68,35 +70,62 @@ class DesignedState(SteadyState):
 
         Without a steady state no mass belongs to the engine: what depends on it is NaN.
         """
-        p, engine = self.shown_performance, self.engine
-        groups = from_engine(engine) if self.design.parameters.spring_stiffness > 0.0 else None
-        area = 0.25 * math.pi * self.design.parameters.bore**2
-        masses = {f"{name}_mass": value for name, value in self.masses._asdict().items()}
-        figures: dict[str, float] = {
-            "power_density": p.power / self.moving_mass if self.found else math.nan,
-            "displacement": 2.0 * area * p.stroke,
-            "relative_stroke": p.stroke / engine.maximum_stroke,
-            "alternator_diameter": self.geometry.mover_outer_diameter,
-            "engine_length": self.geometry.length,
-            **masses,
-            "mass_error": self.mass_error,
-            "stroke_to_bore": engine.maximum_stroke / self.design.parameters.bore,
-        }
-        for name in GROUPS[1:3]:
-            figures[name] = math.nan
-        figures["frequency_ratio"] = math.nan
-        if groups is not None:
-            figures["dimensionless_pressure"] = groups.intake_pressure
-            figures["dimensionless_heat"] = groups.heat
-            if self.found:
-                figures["frequency_ratio"] = groups.frequency_ratio(p.frequency)
+        figures = component_figures(
+            self.design, self.engine, self.operation, self.masses, self.shown_performance
+        )
+        if not self.found:
+            for name in ("power_density", "frequency_ratio"):
+                figures[name] = math.nan
         return figures
+
+    def _repr_html_(self) -> str:
+        from saleg.display import designed_card
+
+        return designed_card(self)
 
     def draw(self, ax: Any = None) -> Any:
         """Drawing of the engine to scale: see :func:`saleg.plotting.design.engine_drawing`."""
         from saleg.plotting.design import engine_drawing
 
         return engine_drawing(self.geometry, ax)
+
+
+def component_figures(
+    design: Design, engine: Engine, operation: Operation, masses: Masses, p: Any
+) -> dict[str, Any]:
+    """What a design with a steady state adds to the figures of the cycle.
+
+    Parameters
+    ----------
+    design : Design
+        One, or many as a design of columns.
+    engine : Engine
+        With the moving mass of the orbit.
+    operation : Operation
+    masses : Masses
+    p : object
+        With the figures of the cycle ``power``, ``stroke`` and ``frequency``.
+    """
+    mass, bore = engine.translator.mass, design.parameters.bore
+    geometry = Geometry.of(design.parameters, design.masses, operation)
+    area = 0.25 * math.pi * bore**2
+    figures: dict[str, Any] = {
+        "power_density": p.power / mass,
+        "displacement": 2.0 * area * p.stroke,
+        "relative_stroke": p.stroke / engine.maximum_stroke,
+        "alternator_diameter": geometry.mover_outer_diameter,
+        "engine_length": geometry.length,
+        **{f"{name}_mass": value for name, value in masses._asdict().items()},
+        "mass_error": masses.total / mass - 1.0,
+        "stroke_to_bore": engine.maximum_stroke / bore,
+        **dict.fromkeys(GROUPS[1:], math.nan),
+    }
+    if design.parameters.spring_stiffness > 0.0:
+        groups = groups_of(engine, engine.left)
+        figures["dimensionless_pressure"] = groups.intake_pressure
+        figures["dimensionless_heat"] = groups.heat
+        figures["frequency_ratio"] = groups.frequency_ratio(p.frequency)
+    return figures
 
 
 #: The four dimensionless groups of Appendix C.

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, Protocol
 
+import numpy as np
+
 from saleg.batch.identity import described, own_code
-from saleg.batch.many import STABILITY_UNITS, steady_row
+from saleg.batch.many import STABILITY_UNITS, steady_columns, steady_row
 from saleg.batch.points import Evaluated, Solver, Values, refuse_parts
-from saleg.batch.table import Row
+from saleg.batch.table import Columns, Row
 from saleg.design.designs import Design
 from saleg.design.many import EvaluatedDesign
 from saleg.engine import Engine
+from saleg.engine.columns import rows_of_columns
 from saleg.engine.paths import unit_of
-from saleg.errors import SweepError, UnknownPath
+from saleg.errors import SweepError, UnknownPath, shown
 from saleg.steady.solver import Effort, found_steady_state
 
 
@@ -31,7 +34,13 @@ class Subject(Evaluated, Protocol):
 
 
 class DesignSubject(EvaluatedDesign):
-    """Designs: inputs are the eight parameters, or paths of the engine and the mass models."""
+    """Designs: inputs are the eight parameters, or paths of the engine and the mass models.
+
+    Parameters
+    ----------
+    design : Design
+        What is as it is unless a point says otherwise.
+    """
 
     def describe(self) -> dict[str, Any]:
         """Parameters, masses and laws."""
@@ -48,7 +57,13 @@ class DesignSubject(EvaluatedDesign):
 
 @dataclasses.dataclass(frozen=True)
 class EngineSubject:
-    """An engine as it stands: inputs are its paths, the moving mass among them."""
+    """An engine as it stands: inputs are its paths, the moving mass among them.
+
+    Parameters
+    ----------
+    engine : Engine
+        What is as it is unless a point says otherwise.
+    """
 
     engine: Engine
 
@@ -76,12 +91,36 @@ class EngineSubject:
         """What makes a row of a point, from the engine's own starts."""
         if warm:
             raise SweepError("warm starts are for designs; an engine begins with its own starts")
+        if multipliers:
+            return EngineSolver(self.engine, rtol, effort, multipliers)
+        return EngineSolverOfColumns(self.engine, rtol, effort)
 
-        def row(values: Values) -> Row:
-            found = found_steady_state(self.engine.replace(**values), rtol, effort=effort)
-            return steady_row(found, multipliers)
 
-        return row
+@dataclasses.dataclass(frozen=True)
+class EngineSolver:
+    """Rows of an engine with some numbers replaced, one after the other."""
+
+    engine: Engine
+    rtol: float
+    effort: Effort
+    multipliers: bool = False
+
+    def __call__(self, values: Values) -> Row:
+        """Row of a point."""
+        found = found_steady_state(self.engine.replace(**values), self.rtol, effort=self.effort)
+        return steady_row(found, self.multipliers)
+
+
+class EngineSolverOfColumns(EngineSolver):
+    """The same without their stability, of many points at once."""
+
+    def columns(self, points: Sequence[Values]) -> Columns:
+        """Rows of some points, column by column."""
+        columns = {name: np.array([values[name] for values in points]) for name in points[0]}
+        lots = rows_of_columns(self.engine, columns)
+        return steady_columns(
+            lots, lambda place: self(points[place]), len(points), self.rtol, self.effort
+        )
 
 
 def _laws(engine: Engine) -> dict[str, Any]:
@@ -99,7 +138,7 @@ def subject_of(swept: Design | Engine | Subject | None) -> Subject:
         return EngineSubject(swept)
     if isinstance(swept, type) or not callable(getattr(swept, "solver", None)):
         raise SweepError(
-            f"cannot sweep {swept!r}: must be a Design, an Engine, or nothing for the designs of "
-            "Chapter 4"
+            f"cannot sweep {shown(swept)}: must be a Design, an Engine, or nothing for the designs "
+            "of Chapter 4"
         )
     return swept

@@ -48,7 +48,7 @@ class Limit(NamedTuple):
     figure : str
         Column of the table.
     low, high : float
-        Ends of the range (SI).
+        Ends of the range, in the SI unit of the figure.
 
     Examples
     --------
@@ -278,6 +278,8 @@ class Repeats(_Curve):
     ----------
     tolerance : float
         Change at which most is lost [-].
+    figure : str
+        Name it is shown by.
     """
 
     tolerance: float = quantity("-", default=0.1, low=0, open_low=True)
@@ -309,6 +311,12 @@ class Within(_Curve):
     term: Term
     low: float = quantity("-")
     high: float = quantity("-")
+
+    def __post_init__(self) -> None:
+        """Refuse what is no term, before it is asked for its figure."""
+        if isinstance(self.term, type) or not callable(getattr(self.term, "curve", None)):
+            raise InvalidScore([Problem("term", self.term, "-", "must be a term")])
+        super().__post_init__()
 
     @property
     def figure(self) -> str:  # type: ignore[override]
@@ -342,6 +350,8 @@ class Own:
         without a steady state are NaN, and may give NaN; others may not.
     figure : str
         What it is called.
+    limits : tuple of Limit
+        Ranges of figures outside which it earns nothing.
 
     Examples
     --------

@@ -17,7 +17,15 @@ if TYPE_CHECKING:
 
 
 class Weighted(NamedTuple):
-    """A term with its weight."""
+    """A term with its weight.
+
+    Attributes
+    ----------
+    weight : float
+        Weight in the mean [-].
+    term : Term
+        What it weighs.
+    """
 
     weight: float
     term: Term
@@ -53,6 +61,9 @@ class WeightedScore:
         InvalidScore
         """
         held, found = [], []
+        if not isinstance(self.terms, Iterable):
+            need = "must be a tuple of (weight, term)"
+            raise InvalidScore([Problem("terms", self.terms, "-", need)])
         for number, item in enumerate(self.terms):
             weight, term = item if isinstance(item, tuple) and len(item) == 2 else (item, None)
             if not is_number(weight) or not 0.0 <= float(weight) < math.inf:

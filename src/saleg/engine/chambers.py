@@ -25,11 +25,13 @@ from saleg.laws.base import (
     Law,
     Misfires,
 )
+from saleg.laws.usual import GAP, LENGTH
 from saleg.quantities import Quantities, quantity
 
 #: Ranges of what has been built, from a bore of 3 mm to ship engines and gas springs; a value
 #: outside is allowed but likely in another unit.
-LENGTH = 1e-4, 3.0
+BORE = 1e-4, 1.0
+AIR_FUEL_RATIO = 1.0, 60.0
 MASS = 1e-4, 1e3
 PRESSURE = 1e4, 2e7
 TEMPERATURE = 200.0, 1500.0
@@ -80,7 +82,7 @@ class Fuel(Quantities):
     lower_heating_value: float = quantity(
         "J/kg", default=48e6, low=0, open_low=True, usual=HEATING_VALUE
     )
-    air_fuel_ratio: float = quantity("-", default=17.5, low=0, open_low=True)
+    air_fuel_ratio: float = quantity("-", default=17.5, low=0, open_low=True, usual=AIR_FUEL_RATIO)
 
 
 class ReferenceState(NamedTuple):
@@ -115,10 +117,12 @@ class Chamber(Quantities):
         Clearance at which the run ends with head contact [m].
     """
 
-    bore: float = quantity("m", low=0, open_low=True, usual=LENGTH)
+    bore: float = quantity("m", low=0, open_low=True, usual=BORE)
     half_stroke: float = quantity("m", low=0, open_low=True, usual=LENGTH)
-    wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0)
-    head_gap: float = quantity("m", default=1e-4, low=0, open_low=True)
+    wall_temperature: float = quantity(
+        "K", default=550.0, low=100.0, high=3000.0, usual=TEMPERATURE
+    )
+    head_gap: float = quantity("m", default=1e-4, low=0, open_low=True, usual=GAP)
 
     @property
     def area(self) -> float:

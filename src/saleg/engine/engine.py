@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
+from saleg.columns import least_of
 from saleg.engine import paths
 from saleg.engine.chambers import Chamber, CombustionChamber, Fuel, Intake, Translator
 from saleg.engine.start import CompressedCharge, Start
@@ -123,9 +124,9 @@ class Engine:
         left, right = self.left.half_stroke, self.right.half_stroke
         burns = [isinstance(chamber, CombustionChamber) for chamber in self.chambers]
         if burns == [True, False]:
-            return left + min(left, right)
+            return left + least_of(left, right)
         if burns == [False, True]:
-            return min(left, right) + right
+            return least_of(left, right) + right
         return left + right
 
     def get(self, path: str) -> Any:
@@ -210,6 +211,15 @@ class Engine:
         """
         check_laws(self.laws.values())
 
+    def __repr__(self) -> str:
+        kinds = ", ".join(type(chamber).__name__ for chamber in self.chambers)
+        return f"<Engine {self.name!r}: {kinds}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import engine_card
+
+        return engine_card(self)
+
     def to_toml(self) -> str:
         """The engine as TOML text that :meth:`from_toml` reads back exactly."""
         from saleg.engine.toml import to_toml
@@ -255,7 +265,7 @@ def check_engine(engine: Any) -> None:
     engine.validate()
 
 
-def warn_of_unusual(engine: Engine, frames: int = 1) -> None:
+def warn_of_unusual(engine: Engine, *, frames: int = 1, **others: Any) -> None:
     """Warn once of all numbers of a valid engine that are far from what has been built.
 
     Parameters
@@ -263,8 +273,13 @@ def warn_of_unusual(engine: Engine, frames: int = 1) -> None:
     engine : Engine
     frames : int
         Functions between this one and the user's line, which the warning names.
+    **others
+        What else the user gave, by name; of it, dataclasses are looked at.
     """
     found = engine.unusual()
+    for name, given in others.items():
+        if is_dataclass(given) and not isinstance(given, type):
+            found += unusual(given, name)
     if found:
         lines = "\n".join(f"  {problem}" for problem in found)
         warnings.warn(f"unusual for an engine:\n{lines}", SalegWarning, stacklevel=2 + frames)
@@ -293,6 +308,16 @@ def _kind_problem(value: Any, kind: type, path: str) -> list[Problem]:
     if isinstance(value, kind):
         return []
     return [Problem(path, value, "-", f"must be a {kind.__name__}")]
+
+
+def lengths_fit(engine: Engine) -> Any:
+    """Whether no lengths contradict each other; of an engine of columns, in each row."""
+    most = engine.left.half_stroke + engine.right.half_stroke
+    fit = True
+    for chamber in engine.chambers:
+        gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
+        fit = fit & (gap < chamber.half_stroke) & (gap < port) & (port < most)
+    return fit
 
 
 def _geometry_problems(engine: Engine) -> list[Problem]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
 
 from saleg.engine.chambers import Chamber, CombustionChamber
-from saleg.errors import PathsClash, UnknownPath, nearest
+from saleg.errors import PathsClash, UnknownPath, nearest, shown
 
 #: An engine: a tree of dataclasses with a left and a right chamber.
 Tree = TypeVar("Tree")
@@ -121,7 +121,7 @@ def known_paths(engine: Any) -> list[str]:
 def _targets(engine: Any, path: str) -> list[tuple[str, ...]]:
     """Attribute chains a path stands for: one, or two for a path of both chambers."""
     if not isinstance(path, str):
-        raise UnknownPath(f"a path is text such as 'intake.pressure', not {path!r}")
+        raise UnknownPath(f"a path is text such as 'intake.pressure', not {shown(path)}")
     first, dot, rest = path.partition(".")
     if dot and first in ("left", "right"):
         candidates = [(first, *_expand(rest, CHAMBER_ALIASES))]

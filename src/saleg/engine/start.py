@@ -10,8 +10,10 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from saleg.columns import exp, log, sqrt
 from saleg.engine.chambers import Chamber
 from saleg.laws.arguments import Motion
+from saleg.laws.usual import FREQUENCY
 from saleg.quantities import Quantities, quantity
 
 #: Exponent with which a start guesses the state of a charge compressed from port closing.
@@ -93,7 +95,7 @@ class CompressedCharge(Start):
     position : float
         Position as a share of the half stroke, negative on the left [-].
     burning : float
-        1 to light the charge at time zero, 0 to leave it unlit.
+        1 to light the charge at time zero, 0 to leave it unlit [-].
     """
 
     position: float = quantity("-", default=-0.9, low=-1, high=1, open_low=True, open_high=True)
@@ -114,7 +116,7 @@ class CompressedCharge(Start):
             contents(engine.right, -x, burning=lit and side == 1),
         )
         energy = _stored_energy(engine, charged, x, held[side], lit)
-        speed = 0.75 * math.sqrt(2.0 * energy / engine.translator.mass)
+        speed = 0.75 * sqrt(2.0 * energy / engine.translator.mass)
         return Initial(x, 0.0, True, 2.0 * depth, speed, *held)
 
 
@@ -134,7 +136,7 @@ class MidpointVelocity(Start):
         Peak velocity over that of a harmonic motion, negative to the left [-].
     """
 
-    frequency: float = quantity("Hz", default=45.0, low=0, open_low=True)
+    frequency: float = quantity("Hz", default=45.0, low=0, open_low=True, usual=FREQUENCY)
     stroke: float = quantity("-", default=0.9, low=0, high=1, open_low=True)
     factor: float = quantity("-", default=1.15)
 
@@ -161,7 +163,20 @@ class AtRest(Start):
 
 
 def contents(chamber: Any, displacement: float, burning: bool = False) -> Contents:
-    """What a chamber holds with its piston `displacement` [m] from the midpoint, outward."""
+    """What a chamber holds with its piston somewhere.
+
+    Parameters
+    ----------
+    chamber : Chamber
+    displacement : float
+        Position of the piston from the midpoint, away from its head [m].
+    burning : bool
+        Whether the charge is lit, if the ports are closed.
+
+    Returns
+    -------
+    Contents
+    """
     height = chamber.half_stroke + displacement
     full = chamber.reference_state
     squeeze = full.clearance / height
@@ -177,26 +192,46 @@ def contents(chamber: Any, displacement: float, burning: bool = False) -> Conten
 
 
 def adiabatic_rise(chamber: Any, squeeze: float) -> float:
-    """Pressure over that at the midpoint of a gas compressed adiabatically `squeeze` times.
+    """Pressure of an adiabatically compressed gas over that in the reference state [-].
 
     ``d ln T / d ln V = 1 - gamma(T)`` by the classical Runge-Kutta method, so that the charge of a
     sealed chamber does not depend on where a run begins.
+
+    Parameters
+    ----------
+    chamber : Chamber
+    squeeze : float
+        Volume in the reference state over that now [-].
+
+    Returns
+    -------
+    float
     """
     gamma = chamber.gas_properties.gamma
     filled = chamber.reference_state.temperature
-    ln_T, steps = math.log(filled), 64
-    h = math.log(squeeze) / steps
+    ln_T, steps = log(filled), 64
+    h = log(squeeze) / steps
     for _ in range(steps):
-        k1 = gamma(math.exp(ln_T)) - 1.0
-        k2 = gamma(math.exp(ln_T + 0.5 * h * k1)) - 1.0
-        k3 = gamma(math.exp(ln_T + 0.5 * h * k2)) - 1.0
-        k4 = gamma(math.exp(ln_T + h * k3)) - 1.0
+        k1 = gamma(exp(ln_T)) - 1.0
+        k2 = gamma(exp(ln_T + 0.5 * h * k1)) - 1.0
+        k3 = gamma(exp(ln_T + 0.5 * h * k2)) - 1.0
+        k4 = gamma(exp(ln_T + h * k3)) - 1.0
         ln_T += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    return float(squeeze * math.exp(ln_T) / filled)
+    return squeeze * exp(ln_T) / filled
 
 
 def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
-    """Mass, fuel, air and burnt gas [kg] of the charge of a cylinder that runs steadily."""
+    """Mass, fuel, air and burnt gas of the charge of a cylinder that runs steadily.
+
+    Parameters
+    ----------
+    cylinder : Cylinder or SealedCylinder
+
+    Returns
+    -------
+    (float, float, float, float)
+        Masses [kg].
+    """
     mass = charge_mass(cylinder)
     ratio, phi = cylinder.fuel.air_fuel_ratio, cylinder.equivalence_ratio
     if phi <= 0.0:
@@ -209,10 +244,19 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
 
 
 def charge_mass(chamber: Any) -> float:
-    """Mass of the charge [kg]; of a ported cylinder ``p_in A d_po / (R T_in)``."""
+    """Mass of the charge [kg]; of a ported cylinder ``p_in A d_po / (R T_in)``.
+
+    Parameters
+    ----------
+    chamber : Chamber
+
+    Returns
+    -------
+    float
+    """
     full, area = chamber.reference_state, math.pi * chamber.bore**2 / 4.0
     density = full.pressure / (chamber.gas_properties.gas_constant * full.temperature)
-    return float(density * area * full.clearance)
+    return density * area * full.clearance
 
 
 def _resting(chamber: Any) -> Contents:

@@ -25,7 +25,7 @@ from saleg.engine.chambers import (
 )
 from saleg.engine.engine import Engine
 from saleg.engine.start import Start
-from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest
+from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest, shown
 from saleg.files.reading import read_text
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.quantities import is_number
@@ -80,7 +80,7 @@ def checked_laws(laws: Any, error: type[SalegError]) -> list[type]:
     listed = list(laws) if isinstance(laws, Iterable) and not isinstance(laws, str) else [laws]
     wrong = [law for law in listed if not isinstance(law, type)]
     if wrong:
-        raise error(f"laws = {laws!r}: must be a list of classes of laws")
+        raise error(f"laws = {shown(laws)}: must be a list of classes of laws")
     return listed
 
 

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.engine import Engine
 from saleg.engine.start import Start
 from saleg.engine.toml import laws_by_slot
@@ -94,6 +95,7 @@ class Stored(NamedTuple):
     is_exact: bool = True
 
 
+@checked(run=a(Run))
 def as_tables(run: Run) -> Description:
     """Describe a run as tables of columns and two texts.
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import inspect
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from types import ModuleType
+from typing import Any, TypeVar
 
 from saleg.engine.toml import checked_laws
 from saleg.errors import RunFileError, SalegError
@@ -28,13 +30,36 @@ SUFFIXES: dict[str, ModuleType] = {
     ".nc": netcdf,
 }
 AnyPath = str | PathLike[str]
+Format = TypeVar("Format", bound=Callable[..., Any])
+#: What the parameters of all functions here mean.
+PARAMETERS = {
+    "run": "run : Run",
+    "path": "path : path-like\n    File, or folder of CSV tables.",
+    "folder": "folder : path-like",
+    "overwrite": "overwrite : bool\n    Whether to replace what exists.",
+    "laws": "laws : sequence of type\n    Own laws and starts the engine uses, as classes.",
+}
 
 
+def documented(function: Format) -> Format:
+    """Complete the docstring of a function that saves or loads with what all of them share."""
+    if function.__doc__ is not None:  # python -OO has none
+        names = inspect.signature(function).parameters
+        parameters = "\n".join(PARAMETERS[name] for name in names)
+        returned = "" if "run" in names else "\n\nReturns\n-------\nRun"
+        raises = "\n\nRaises\n------\nRunFileError\n    Saying which file, and why."
+        section = f"\n\nParameters\n----------\n{parameters}"
+        function.__doc__ += f"{section}{returned}{raises}\n"
+    return function
+
+
+@documented
 def save(run: Run, path: AnyPath, *, overwrite: bool = False) -> None:
     """Save a run in the format its suffix asks for; see :meth:`saleg.Run.save`."""
     _save(_format(as_path(path, RunFileError)), run, path, overwrite)
 
 
+@documented
 def load(path: AnyPath, *, laws: Sequence[type] = ()) -> Run:
     """Load a run from the format its suffix tells; see :meth:`saleg.Run.load`."""
     path = as_path(path, RunFileError)
@@ -42,51 +67,61 @@ def load(path: AnyPath, *, laws: Sequence[type] = ()) -> Run:
     return _load(csv_folder if folder else _format(path), path, laws)
 
 
+@documented
 def save_npz(run: Run, path: AnyPath, *, overwrite: bool = False) -> None:
     """Save a run as numpy's npz: arrays named ``cycles.stroke`` and texts, no pickles."""
     _save(npz, run, path, overwrite)
 
 
+@documented
 def load_npz(path: AnyPath, *, laws: Sequence[type] = ()) -> Run:
     """Load a run :func:`save_npz` saved."""
     return _load(npz, path, laws)
 
 
+@documented
 def save_mat(run: Run, path: AnyPath, *, overwrite: bool = False) -> None:
     """Save a run for MATLAB: ``cycles.stroke`` a column, ``cycles_units.stroke`` its unit."""
     _save(matlab, run, path, overwrite)
 
 
+@documented
 def load_mat(path: AnyPath, *, laws: Sequence[type] = ()) -> Run:
     """Load a run :func:`save_mat` saved."""
     return _load(matlab, path, laws)
 
 
+@documented
 def save_hdf5(run: Run, path: AnyPath, *, overwrite: bool = False) -> None:
     """Save a run as HDF5: dataset ``cycles/stroke`` with an attribute ``units``; needs h5py."""
     _save(hdf5, run, path, overwrite)
 
 
+@documented
 def load_hdf5(path: AnyPath, *, laws: Sequence[type] = ()) -> Run:
     """Load a run :func:`save_hdf5` saved; needs h5py."""
     return _load(hdf5, path, laws)
 
 
+@documented
 def save_netcdf(run: Run, path: AnyPath, *, overwrite: bool = False) -> None:
     """Save the datasets of :func:`to_xarray` as groups of a netCDF file; needs xarray, h5netcdf."""
     _save(netcdf, run, path, overwrite)
 
 
+@documented
 def load_netcdf(path: AnyPath, *, laws: Sequence[type] = ()) -> Run:
     """Load a run :func:`save_netcdf` saved; needs h5py."""
     return _load(netcdf, path, laws)
 
 
+@documented
 def save_csv(run: Run, folder: AnyPath, *, overwrite: bool = False) -> None:
     """Save a run as a folder of CSV tables, units in the headers, with the engine as TOML."""
     _save(csv_folder, run, folder, overwrite)
 
 
+@documented
 def load_csv(folder: AnyPath, *, laws: Sequence[type] = ()) -> Run:
     """Load a run :func:`save_csv` saved."""
     return _load(csv_folder, folder, laws)

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.engine import Engine
 from saleg.engine.toml import read_toml
 from saleg.errors import RunFileError, SalegError
@@ -27,6 +28,7 @@ from saleg.simulation.run import Run
 from saleg.status import Status
 
 
+@checked(description=a(Description))
 def from_tables(description: Description, laws: Sequence[type] = ()) -> Run:
     """Make a run from its description; nothing is simulated again.
 
@@ -40,6 +42,11 @@ def from_tables(description: Description, laws: Sequence[type] = ()) -> Run:
     -------
     Run
         Equal to the one described, its last cycle included.
+
+    Raises
+    ------
+    WrongArguments
+        If it is no description.
 
     Raises
     ------

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 
 
 def expanded(path: str | os.PathLike[str]) -> Path:
@@ -32,7 +32,9 @@ def as_path(path: Any, error: type[SalegError], name: str = "path") -> Path:
         if "\0" in str(given):
             raise ValueError
     except (TypeError, ValueError):
-        raise error(f"{name} = {path!r}: must be text or a Path, and a possible name") from None
+        raise error(
+            f"{name} = {shown(path)}: must be text or a Path, and a possible name"
+        ) from None
     return given
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import singledispatch
 
+from saleg.checks import a, checked
 from saleg.engine import Engine, SealedCylinder, Translator
 from saleg.engine.start import CompressedCharge, charge_mass
 from saleg.errors import OutsideModel
-from saleg.fundamental.checks import LEFT, require
+from saleg.fundamental.checks import LEFT, SCALAR, require
 from saleg.fundamental.gas import Gas, Isentropic, Polytropic
 from saleg.fundamental.ignition import AtDeadCentre, AtPressure, Ignition
 from saleg.fundamental.loads import ConstantLoad, CosineLoad, Load
@@ -41,6 +42,7 @@ VACUUM = 1e-15
 HEAD_GAP = 1e-6
 
 
+@checked(system=a(System), start=SCALAR, scales=a(Scales))
 def to_engine(system: System, start: float = -0.8, *, scales: Scales = BASE_CASE) -> Engine:
     """Engine of the numeric model that makes the assumptions of a system.
 

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.errors import OutsideModel
-from saleg.fundamental.checks import DEPTH, LEFT, require
+from saleg.fundamental.checks import DEPTH, LEFT, SCALAR, require
 from saleg.fundamental.history import from_depth
 from saleg.fundamental.loads import ConstantLoad
 from saleg.fundamental.system import System
@@ -24,6 +25,7 @@ from saleg.quantities import Problem
 TINY = 1e-30
 
 
+@checked(system=a(System))
 def indicated_work(system: System, depth: Any) -> Any:
     """Work the gas gains in a stroke between mirrored dead centres, the load aside.
 
@@ -48,6 +50,7 @@ def indicated_work(system: System, depth: Any) -> Any:
     return gain(system, np.asarray(depth, dtype=float))
 
 
+@checked(system=a(System), start=SCALAR)
 def at_equilibrium(system: System, start: float) -> System:
     """Copy of a system whose load makes a dead centre an equilibrium (Eq. 32, generalised).
 
@@ -83,6 +86,7 @@ def at_equilibrium(system: System, start: float) -> System:
     return replace(system, load=system.load.balanced(system, depth, work))
 
 
+@checked(system=a(System))
 def multiplier(system: System, depth: Any) -> Any:
     """Change of the next depth with the last one, at an equilibrium.
 

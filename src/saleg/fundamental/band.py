@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from saleg.fundamental.checks import GAMMA, require
+from saleg.checks import checked, whole
+from saleg.fundamental.checks import GAMMA, SCALAR, require
 from saleg.fundamental.numerics import bisect
 from saleg.fundamental.otto import compression_ratio, equilibrium_force
 from saleg.quantities import Limits
@@ -67,6 +68,7 @@ def tolerance_band(gamma: Any = 1.4) -> ToleranceBand:
     return ToleranceBand(lowest[()], (gamma - 1.0)[()], fold[()])
 
 
+@checked(gamma=SCALAR, count=whole(1))
 def equilibrium_branch(gamma: float, count: int = 400) -> tuple[np.ndarray, np.ndarray]:
     """Compression ratios and the ratios F_W*/Q_in* that hold them (Eq. 32).
 

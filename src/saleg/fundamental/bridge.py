@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
+from saleg.checks import a, checked
 from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.engine.start import standard_charge
 from saleg.errors import InvalidEngine, OutsideModel
 from saleg.fundamental.balance import at_equilibrium
+from saleg.fundamental.checks import SCALAR
 from saleg.fundamental.gas import Isentropic
 from saleg.fundamental.loads import ConstantLoad, Load
 from saleg.fundamental.scales import Scales
@@ -92,6 +95,7 @@ class Groups:
         return frequency / self.scales.frequency
 
 
+@checked(engine=a(Engine), chamber=a(Chamber).optional, gamma=SCALAR.optional)
 def from_engine(
     engine: Engine, chamber: Chamber | None = None, *, gamma: float | None = None
 ) -> Groups:
@@ -130,6 +134,19 @@ def from_engine(
         chamber = next(
             (c for c in engine.chambers if isinstance(c, CombustionChamber)), engine.left
         )
+    if gamma is not None and not gamma > 1.0:
+        raise OutsideModel([Problem("gamma", gamma, "-", "must be > 1")])
+    return groups_of(engine, chamber, gamma)
+
+
+def groups_of(engine: Engine, chamber: Any, gamma: float | None = None) -> Groups:
+    """The same of a valid engine, or of one of columns.
+
+    Raises
+    ------
+    InvalidEngine
+        If it has no springs to make the groups with.
+    """
     scales = Scales(
         half_stroke=chamber.half_stroke,
         bore=chamber.bore,
@@ -138,9 +155,7 @@ def from_engine(
     )
     pressure, temperature, closing = chamber.reference_state
     if gamma is None:
-        gamma = float(chamber.gas_properties.gamma(temperature))  # type: ignore[attr-defined]
-    elif not gamma > 1.0:
-        raise OutsideModel([Problem("gamma", gamma, "-", "must be > 1")])
+        gamma = chamber.gas_properties.gamma(temperature)
     intake = pressure / scales.pressure
     return Groups(
         scales=scales,
@@ -160,7 +175,7 @@ def _stiffness(engine: Engine, length: float) -> float:
     if not stiffness > 0.0:
         allowed = "must be > 0 at the midpoint: the groups of Chapter 2 are made with the springs"
         raise InvalidEngine([Problem("springs", stiffness, "N/m", allowed)])
-    return float(stiffness)
+    return stiffness
 
 
 def _heat(chamber: Chamber) -> float:
@@ -170,4 +185,4 @@ def _heat(chamber: Chamber) -> float:
     _, fuel, air, _ = standard_charge(chamber)
     burning = min(fuel, air / chamber.fuel.air_fuel_ratio)
     share = chamber.combustion_efficiency * chamber.heat_release.burnt_fraction(1.0)
-    return float(burning * share * chamber.fuel.lower_heating_value)
+    return burning * share * chamber.fuel.lower_heating_value

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from saleg.checks import Check, as_array
 from saleg.errors import OutsideModel
-from saleg.quantities import Limits, Problem
+from saleg.quantities import Limits, Problem, as_float
 
 POSITION = Limits("-", -1.0, 1.0, True, True)
 DEPTH = Limits("-", 0.0, 1.0, True, True)
@@ -15,6 +16,8 @@ LEFT = Limits("-", -1.0, 0.0, True, True)
 GAMMA = Limits("-", 1.0, np.inf, True, False)
 NOT_NEGATIVE = Limits("-", 0.0, np.inf, False, False)
 FINITE = Limits("-", -np.inf, np.inf, False, False)
+#: One number, of whatever range.
+SCALAR = Check(as_float, "must be a number")
 
 
 def require(**arguments: tuple[Any, Limits]) -> None:
@@ -48,11 +51,13 @@ def require(**arguments: tuple[Any, Limits]) -> None:
 
 
 def _problems(name: str, value: Any, limits: Limits) -> list[Problem]:
-    try:
-        # Of complex numbers the real part: derivatives are taken with steps along the other one.
-        numbers = np.asarray(np.real(value), dtype=float).ravel()
-    except (TypeError, ValueError):
+    if np.iscomplexobj(value):
+        value = np.real(value)  # derivatives are taken with steps along the other part
+    number = as_float(value)
+    numbers = as_array(value) if number is None else np.array(number)
+    if numbers is None:
         return [Problem(name, value, limits.unit, limits.wanted("a number"))]
+    numbers = numbers.ravel()
     if numbers.size == 0 or (np.isfinite(numbers).all() and _admits_all(limits, numbers)):
         return []
     for number in numbers.tolist():

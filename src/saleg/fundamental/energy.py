@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from saleg.checks import a, checked
 from saleg.fundamental.gas import expansion_work
 from saleg.fundamental.history import History
 from saleg.fundamental.stroke import Stroke
@@ -54,6 +55,7 @@ class EnergyBalance:
         )
 
 
+@checked(stroke=a(Stroke))
 def stroke_balance(stroke: Stroke) -> EnergyBalance:
     """Energy balance of a stroke, from the first moment of its motion to that of the next one.
 
@@ -93,6 +95,7 @@ def stroke_balance(stroke: Stroke) -> EnergyBalance:
     )
 
 
+@checked(history=a(History))
 def cycle_balance(history: History) -> EnergyBalance:
     """Energy balance of the last full cycle, both strokes of it.
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.fundamental.balance import TINY, gain, indicated_work, multiplier
 from saleg.fundamental.history import RUNAWAY_DEPTH, return_map
 from saleg.fundamental.loads import Load
@@ -67,6 +68,7 @@ class Fold:
         return float(compression_ratio(-self.depth, self.depth))
 
 
+@checked(system=a(System))
 def equilibria(system: System) -> tuple[Equilibrium, ...]:
     """All isolated equilibria of a system, in the order of their depth.
 
@@ -101,6 +103,7 @@ def equilibria(system: System) -> tuple[Equilibrium, ...]:
     return tuple(Equilibrium(float(u), float(multiplier(system, u))) for u in roots[repeats])
 
 
+@checked(system=a(System))
 def folds(system: System) -> tuple[Fold, ...]:
     """Depths at which two equilibria meet as the load is made stronger or weaker.
 

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.fundamental.checks import DEPTH, require
+from saleg.checks import a, checked, whole
+from saleg.fundamental.checks import DEPTH, SCALAR, require
 from saleg.fundamental.otto import compression_ratio
 from saleg.fundamental.stroke import Stroke
 from saleg.fundamental.system import System
@@ -33,7 +34,13 @@ class Outcome(StrEnum):
 
 
 class Path(NamedTuple):
-    """Time, position, velocity and acceleration along strokes [-], arrays of shape (n,)."""
+    """Motion along strokes, dimensionless.
+
+    Attributes
+    ----------
+    t, x, v, a : ndarray, shape (n,)
+        Time, position, velocity and acceleration [-].
+    """
 
     t: np.ndarray
     x: np.ndarray
@@ -93,6 +100,7 @@ class History:
         return Path(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
+@checked(system=a(System), start=SCALAR, strokes=whole(0))
 def march(system: System, start: float, strokes: int = 200) -> History:
     """Follow an engine from dead centre to dead centre, in closed form.
 
@@ -128,6 +136,7 @@ def march(system: System, start: float, strokes: int = 200) -> History:
     return History(tuple(done))
 
 
+@checked(system=a(System))
 def return_map(system: System, depth: Any) -> Any:
     """Depth at the end of a stroke over that at its beginning, beyond the first stroke.
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.checks import a, checked, number
+from saleg.fundamental.checks import SCALAR
 from saleg.fundamental.gas import Gas, expansion_work
 from saleg.quantities import Quantities, quantity
 
@@ -85,6 +87,7 @@ class AtPressure(Ignition):
     ratio: float = quantity("-", low=1, open_low=True)
 
     @classmethod
+    @checked(share=SCALAR, start=number(-1.0, 1.0, open_low=True, open_high=True), gas=a(Gas))
     def share_of_start(cls, share: float, start: float, gas: Gas) -> AtPressure:
         """Threshold as a share of the pressure at the start, as the thesis gives it.
 

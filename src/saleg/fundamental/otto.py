@@ -60,7 +60,7 @@ def equilibrium_force(left: Any, right: Any = None, *, gamma: Any, heat: Any) ->
     >>> round(float(equilibrium_force(-0.8, gamma=1.4, heat=1.0)), 6)
     0.365473
     """
-    require(heat=(heat, NOT_NEGATIVE))
+    require(left=(left, POSITION), heat=(heat, NOT_NEGATIVE))
     right = -np.asarray(left) if right is None else np.asarray(right)
     efficiency = otto_efficiency(left, right, gamma=gamma)
     return heat * efficiency / (right - np.asarray(left))
@@ -110,5 +110,6 @@ def compression_ratio(left: Any, right: Any) -> Any:
     >>> float(compression_ratio(-0.5, 0.5))
     3.0
     """
+    require(left=(left, POSITION), right=(right, POSITION))
     stroke = np.abs(np.asarray(right) - np.asarray(left))
     return (2.0 + stroke) / (2.0 - stroke)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from saleg.columns import Column, sqrt
 from saleg.errors import OutsideModel
 from saleg.quantities import Quantities, problems, quantity
 
@@ -46,6 +47,9 @@ class Scales(Quantities):
     def __post_init__(self) -> None:
         """Check all fields."""
         super().__post_init__()
+        held = vars(self).values()
+        if all(isinstance(value, (float, Column)) and 0.0 < value < math.inf for value in held):
+            return
         found = problems(self)
         if found:
             raise OutsideModel(found)
@@ -68,7 +72,7 @@ class Scales(Quantities):
     @property
     def time(self) -> float:
         """Scale of times, sqrt(m/k) [s] (Eq. 10)."""
-        return math.sqrt(self.mass / self.stiffness)
+        return sqrt(self.mass / self.stiffness)
 
     @property
     def frequency(self) -> float:

@@ -34,7 +34,7 @@ class Stroke:
     start : float or ndarray
         Dead centre at which it begins, x* [-]; an array stands for as many strokes.
     direction : float
-        1 to the right, -1 to the left.
+        1 to the right, -1 to the left [-].
     pressure : float or ndarray
         Pressure of the gas about to expand, at `start` [-].
     load : Profile

@@ -7,7 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from saleg.checks import a, checked, whole
 from saleg.fundamental.assumptions import BASE_CASE, to_engine
+from saleg.fundamental.checks import SCALAR
 from saleg.fundamental.energy import stroke_balance
 from saleg.fundamental.history import History, march
 from saleg.fundamental.scales import Scales
@@ -137,6 +139,7 @@ class Verification:
         return greatest, deviation
 
 
+@checked(system=a(System), start=SCALAR, strokes=whole(1), scales=a(Scales))
 def verify(
     system: System,
     start: float = -0.8,
@@ -158,7 +161,7 @@ def verify(
     scales : Scales
         Those of the engine; the thesis' base case unless given.
     rtol : float
-        Tolerance of the numeric engine.
+        Tolerance of the numeric engine [-].
 
     Returns
     -------

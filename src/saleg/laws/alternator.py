@@ -6,9 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from saleg.checks import NUMBER, POSITIVE, checked
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator
 from saleg.laws.interpolation import bilinear, next_point
+from saleg.laws.usual import FORCE, FREQUENCY, LENGTH, LOAD_CONSTANT, SMALL_FORCE
 from saleg.quantities import quantity, series
 
 
@@ -53,15 +55,16 @@ class LinearLoad(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
 
-    load_constant: float = quantity("N s/m", default=70.0, low=0)
+    load_constant: float = quantity("N s/m", default=70.0, low=0, usual=LOAD_CONSTANT)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
     @classmethod
+    @checked(flux_gradient=NUMBER, load_resistance=POSITIVE, efficiency=POSITIVE)
     def from_circuit(
         cls,
         flux_gradient: float,
@@ -120,12 +123,12 @@ class ConstantForce(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
 
-    amplitude: float = quantity("N", default=1000.0, low=0)
+    amplitude: float = quantity("N", default=1000.0, low=0, usual=FORCE)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
     def force(self, load_weight: float, motion: Motion) -> float:
@@ -153,13 +156,13 @@ class CosineForce(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
 
-    amplitude: float = quantity("N", default=1500.0, low=0)
-    half_stroke: float = quantity("m", default=0.1, low=0, open_low=True)
+    amplitude: float = quantity("N", default=1500.0, low=0, usual=FORCE)
+    half_stroke: float = quantity("m", default=0.1, low=0, open_low=True, usual=LENGTH)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
 
     def force(self, load_weight: float, motion: Motion) -> float:
@@ -194,7 +197,7 @@ class CircuitAlternator(RegulatedAlternator):
     least_weight : float
         Load weight at which the circuit counts as open: the load resistance grows no further [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     mirrors: ClassVar[bool] = True
@@ -243,12 +246,12 @@ class FluxProfile(RegulatedAlternator):
     cogging : tuple of float
         Fourier coefficients c_n of the cogging force, from n = 1 on [N].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
-    load_constant: float = quantity("N s/m", default=70.0, low=0)
+    load_constant: float = quantity("N s/m", default=70.0, low=0, usual=LOAD_CONSTANT)
     efficiency: float = quantity("-", default=0.95, low=0, high=1)
-    wavelength: float = quantity("m", default=0.05, low=0, open_low=True)
+    wavelength: float = quantity("m", default=0.05, low=0, open_low=True, usual=LENGTH)
     cosines: tuple[float, ...] = series("-", default=(0.1,))
     sines: tuple[float, ...] = series("-", default=(0.0,))
     cogging: tuple[float, ...] = series("N", default=(0.0,))
@@ -299,7 +302,7 @@ class ForceMap(RegulatedAlternator):
     efficiency : float
         Electrical over mechanical power [-].
     regulator_gain, target_stroke, maximum_weight : float
-        See :class:`RegulatedAlternator`.
+        Of the stroke regulator (Eq. 59) [-], see :class:`RegulatedAlternator`.
     """
 
     positions: tuple[float, ...] = series("m", default=(0.0,), rising=True)
@@ -345,8 +348,8 @@ class SinusoidalMotor(Alternator):
         Of the conversion, either way [-].
     """
 
-    amplitude: float = quantity("N", default=264.0, low=0)
-    frequency: float = quantity("Hz", default=35.0, low=0)
+    amplitude: float = quantity("N", default=264.0, low=0, usual=SMALL_FORCE)
+    frequency: float = quantity("Hz", default=35.0, low=0, usual=FREQUENCY)
     phase: float = quantity("rad", default=0.0)
     efficiency: float = quantity("-", default=0.95, low=0, high=1, open_low=True)
 

@@ -25,7 +25,7 @@ class Gas(NamedTuple):
     wall_temperature : float
         Temperature of head, liner and crown [K].
     burning : float
-        1 while heat is being released, otherwise 0.
+        1 while heat is being released, otherwise 0 [-].
     clearance_rate : float
         Rate of the clearance [m/s], negative in compression.
     p_rate : float
@@ -79,8 +79,8 @@ class Motion(NamedTuple):
     t, x, v : float
         Time [s], position from the midpoint [m], velocity [m/s]; right is positive.
     direction : float
-        +1 on the way right, -1 on the way left, 0 before the first movement. Unlike the sign of
-        `v` it does not flicker at a dead centre.
+        +1 on the way right, -1 on the way left, 0 before the first movement [-]. Unlike the sign
+        of `v` it does not flicker at a dead centre.
     current : float
         Current in the alternator [A]; 0 unless its law has one.
     """
@@ -130,7 +130,7 @@ class Signals(NamedTuple):
     x : float
         Position of the latest dead centre [m].
     direction : float
-        +1 if the coming stroke goes right, -1 if left, 0 before the first movement.
+        +1 if the coming stroke goes right, -1 if left, 0 before the first movement [-].
     stroke : float
         Distance between the last two dead centres S [m].
     compression_ratio : float
@@ -143,10 +143,10 @@ class Signals(NamedTuple):
     regulated_weight : float
         Load weight the alternator's own regulator (Eq. 59) asks for [-].
     motoring : float
-        1 if the alternator is to be a motor in the coming stroke, else 0. The state logic itself
-        is shown what it was so far.
+        1 if the alternator is to be a motor in the coming stroke, else 0 [-]. The state logic
+        itself is shown what it was so far.
     was_motoring : float
-        1 if it was a motor in the stroke just ended.
+        1 if it was a motor in the stroke just ended, else 0 [-].
     maximum_stroke : float
         Greatest geometrically possible stroke [m], see :attr:`saleg.Engine.maximum_stroke`.
     rated_equivalence_ratio : float
@@ -184,7 +184,7 @@ class Drive(NamedTuple):
     sweep : float
         Rate of the frequency [Hz/s].
     sets_phase : float
-        1 to begin with `phase`, 0 to go on from the angle reached.
+        1 to begin with `phase`, 0 to go on from the angle reached [-].
     phase : float
         Phase to begin with [rad].
     """
@@ -206,7 +206,7 @@ class Commands(NamedTuple):
     load_weight : float
         Load weight W [-], where it draws power.
     amplitude, frequency, sweep, sets_phase, phase : float
-        See :class:`Drive`.
+        See :class:`Drive` [N, Hz, Hz/s, -, rad].
     equivalence_ratio : float
         Of the charges composed from now on [-]; 0 cuts the fuel.
     intake_temperature : float

@@ -22,7 +22,7 @@ class Validity(NamedTuple):
     quantity : str
         "temperature" [K], "pressure" [Pa], "mean_piston_speed" [m/s] or "equivalence_ratio" [-].
     low, high : float
-        The range.
+        The range, in the SI unit of the quantity.
     source : str
         Who says so.
     """
@@ -169,8 +169,8 @@ class Misfires(Law):
         Parameters
         ----------
         charge_number : float
-            Charges of this cylinder composed so far, this one included; the one the run starts
-            with is number 0.
+            Charges of this cylinder composed so far, this one included [-]; the one the run
+            starts with is number 0.
         """
         raise NotImplementedError
 

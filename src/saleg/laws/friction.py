@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Friction
+from saleg.laws.usual import FRICTION, SMALL_FORCE
 from saleg.quantities import quantity
 
 
@@ -69,8 +70,8 @@ class CoulombViscousFriction(Friction):
 
     mirrors: ClassVar[bool] = True
 
-    coulomb: float = quantity("N", default=50.0, low=0)
-    viscous: float = quantity("N s/m", default=8.0, low=0)
+    coulomb: float = quantity("N", default=50.0, low=0, usual=SMALL_FORCE)
+    viscous: float = quantity("N s/m", default=8.0, low=0, usual=FRICTION)
 
     def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
         """Coulomb force [N]."""
@@ -93,7 +94,7 @@ class ViscousFriction(Friction):
 
     mirrors: ClassVar[bool] = True
 
-    coefficient: float = quantity("N s/m", default=0.0, low=0)
+    coefficient: float = quantity("N s/m", default=0.0, low=0, usual=FRICTION)
 
     def at_dead_centre(self, memory: float, stroke: Stroke) -> float:
         """Friction coefficient [N s/m]."""

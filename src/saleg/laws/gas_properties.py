@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from saleg.laws.base import GasProperties, Validity
+from saleg.laws.usual import GAS_CONSTANT
 from saleg.quantities import quantity
 
 # Gauss-Legendre abscissae and weights on [-1, 1]: twelve points integrate c_v of Eq. 49 over its
@@ -55,7 +56,9 @@ class ChangGas(GasProperties):
 
     valid_for = (Validity("temperature", 550.0, 2150.0, "Chang et al., SAE 2004-01-2996"),)
 
-    gas_constant: float = quantity("J/kg/K", default=287.0, low=0, open_low=True)
+    gas_constant: float = quantity(
+        "J/kg/K", default=287.0, low=0, open_low=True, usual=GAS_CONSTANT
+    )
 
     def gamma(self, T: float) -> float:
         """Ratio of specific heats [-], Eq. 49."""
@@ -85,7 +88,9 @@ class ConstantGamma(GasProperties):
     """
 
     value: float = quantity("-", default=1.4, low=1, open_low=True)
-    gas_constant: float = quantity("J/kg/K", default=287.0, low=0, open_low=True)
+    gas_constant: float = quantity(
+        "J/kg/K", default=287.0, low=0, open_low=True, usual=GAS_CONSTANT
+    )
 
     def gamma(self, T: float) -> float:
         """Ratio of specific heats [-]."""

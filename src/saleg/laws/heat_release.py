@@ -52,7 +52,7 @@ class Wiebe(BurnDuration):
     Parameters
     ----------
     combustion_duration, speed_exponent, equivalence_ratio_exponent, temperature_exponent : float
-        See :class:`BurnDuration`.
+        Duration [s] and its exponents [-], see :class:`BurnDuration`.
     a : float
         Efficiency parameter [-].
     b : float
@@ -99,7 +99,7 @@ class DoubleWiebe(BurnDuration):
     Parameters
     ----------
     combustion_duration, speed_exponent, equivalence_ratio_exponent, temperature_exponent : float
-        See :class:`BurnDuration`.
+        Duration [s] and its exponents [-], see :class:`BurnDuration`.
     premixed_share : float
         Share of the heat released in the premixed phase [-].
     premixed_end : float
@@ -156,7 +156,7 @@ class BurnProfile(BurnDuration):
     Parameters
     ----------
     combustion_duration, speed_exponent, equivalence_ratio_exponent, temperature_exponent : float
-        See :class:`BurnDuration`.
+        Duration [s] and its exponents [-], see :class:`BurnDuration`.
     times : tuple of float
         Times since the start of combustion over its duration, rising from 0 to 1 [-].
     fractions : tuple of float

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import Ignition, Validity
 from saleg.laws.interpolation import interval, share
+from saleg.laws.usual import ACTIVATION_ENERGY, GAS_PRESSURE, LENGTH
 from saleg.quantities import quantity, series
 
 #: Universal gas constant [cal/mol/K], and standard atmosphere [Pa].
@@ -87,7 +88,7 @@ class RCMIgnition(Ignition):
     pressure_exponent: float = quantity("-", default=-1.05)
     equivalence_ratio_exponent: float = quantity("-", default=-0.77)
     oxygen_exponent: float = quantity("-", default=-1.41)
-    activation_energy: float = quantity("cal/mol", default=33700.0)
+    activation_energy: float = quantity("cal/mol", default=33700.0, usual=ACTIVATION_ENERGY)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: one over the delay."""
@@ -107,7 +108,7 @@ class RCMIgnitionPascal(RCMIgnition):
     Parameters
     ----------
     A, pressure_exponent, equivalence_ratio_exponent, oxygen_exponent, activation_energy : float
-        See :class:`RCMIgnition`.
+        As for :class:`RCMIgnition`, in its units [s, -, cal/mol], with the pressure in pascal.
     """
 
     def rate(self, gas: Gas, charge: Charge) -> float:
@@ -151,7 +152,7 @@ class SparkAtClearance(Ignition):
         Clearance between crown and head at the spark [m].
     """
 
-    clearance: float = quantity("m", default=0.020, low=0)
+    clearance: float = quantity("m", default=0.020, low=0, usual=LENGTH)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: speed inward over the way to go."""
@@ -171,7 +172,7 @@ class SparkAfterDelay(Ignition):
         Time from port closing to the spark [s].
     """
 
-    delay: float = quantity("s", default=7e-3, low=0, open_low=True)
+    delay: float = quantity("s", default=7e-3, low=0, open_low=True, usual=(1e-5, 0.2))
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]."""
@@ -188,7 +189,7 @@ class IgnitionAtPressure(Ignition):
         Pressure at which the charge lights [Pa].
     """
 
-    pressure: float = quantity("Pa", default=40e5, low=0, open_low=True, usual=(1e4, 2e8))
+    pressure: float = quantity("Pa", default=40e5, low=0, open_low=True, usual=GAS_PRESSURE)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: that of the pressure over the rise to go."""
@@ -227,7 +228,9 @@ class TabulatedDelay(Ignition):
         Delays [s], equivalence ratio running fastest, then temperature, then pressure.
     """
 
-    pressures: tuple[float, ...] = series("Pa", default=(10e5, 100e5), low=1.0, rising=True)
+    pressures: tuple[float, ...] = series(
+        "Pa", default=(10e5, 100e5), low=1.0, rising=True, usual=GAS_PRESSURE
+    )
     temperatures: tuple[float, ...] = series("K", default=(700.0, 1300.0), low=1.0, rising=True)
     equivalence_ratios: tuple[float, ...] = series("-", default=(0.6,), low=0, rising=True)
     delays: tuple[float, ...] = series(

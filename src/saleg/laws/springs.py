@@ -9,10 +9,8 @@ from typing import ClassVar
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Springs
 from saleg.laws.interpolation import linear, linear_integral, next_point
+from saleg.laws.usual import FORCE, LENGTH, STIFFNESS, STOP_STIFFNESS
 from saleg.quantities import quantity, series
-
-#: Stiffness of what has been built [N/m].
-STIFFNESS = 100.0, 1e9
 
 
 @dataclass(frozen=True)
@@ -53,9 +51,11 @@ class ProgressiveSprings(Springs):
         Tangent stiffness of one spring there [N/m].
     """
 
-    deflections: tuple[float, ...] = series("m", default=(0.0, 0.1), low=0, rising=True)
+    deflections: tuple[float, ...] = series(
+        "m", default=(0.0, 0.1), low=0, rising=True, usual=LENGTH
+    )
     stiffnesses: tuple[float, ...] = series(
-        "N/m", default=(30e3, 45e3), low=0, length="deflections"
+        "N/m", default=(30e3, 45e3), low=0, length="deflections", usual=STIFFNESS
     )
 
     def force(self, motion: Motion) -> float:
@@ -101,7 +101,7 @@ class PreloadedSprings(Springs):
     """
 
     stiffness: float = quantity("N/m", default=30e3, low=0, usual=STIFFNESS)
-    preload: float = quantity("N", default=3e3, low=0)
+    preload: float = quantity("N", default=3e3, low=0, usual=FORCE)
 
     def force(self, motion: Motion) -> float:
         """Force on the translator [N]."""
@@ -145,8 +145,8 @@ class EndStops(Springs):
     """
 
     stiffness: float = quantity("N/m", default=30e3, low=0, usual=STIFFNESS)
-    gap: float = quantity("m", default=0.095, low=0)
-    stop_stiffness: float = quantity("N/m", default=10e6, low=0)
+    gap: float = quantity("m", default=0.095, low=0, usual=LENGTH)
+    stop_stiffness: float = quantity("N/m", default=10e6, low=0, usual=STOP_STIFFNESS)
 
     def force(self, motion: Motion) -> float:
         """Force on the translator [N]."""

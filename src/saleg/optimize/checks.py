@@ -30,7 +30,8 @@ def wrong_fields(problem: Any) -> Iterator[Wrong]:
         yield Wrong("swept", problem.swept, "-", str(error))
         return
     yield from _wrong_bounds(problem, subject)
-    figures = {*map(str, problem.bounds or ()), *map(str, subject.units), "score"}
+    bounds = problem.bounds if isinstance(problem.bounds, Mapping) else {}
+    figures = {*map(str, bounds), *map(str, subject.units), "score"}
     if isinstance(problem.scatter, Scatter):
         yield from problem.scatter.wrong(subject)
         figures |= set(SCATTER_FIGURES)
@@ -43,7 +44,7 @@ def wrong_fields(problem: Any) -> Iterator[Wrong]:
             yield _unknown("score", term.figure, figures)
     yield from _wrong_tuple("objectives", problem.objectives, Objective, figures)
     yield from _wrong_tuple("constraints", problem.constraints, Limit, figures)
-    if not problem.objectives:
+    if isinstance(problem.objectives, (tuple, list)) and not problem.objectives:
         yield Wrong("objectives", problem.objectives, "-", "must be at least one Objective")
     for name, check in (("effort", check_effort), ("rtol", check_tolerance)):
         try:

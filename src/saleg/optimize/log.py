@@ -1,13 +1,15 @@
 """The folder of an optimisation: every design that was evaluated, whatever happens next.
 
 ``optimisation.json`` says what is optimised and how. ``designs.csv`` only grows, by a generation at
-a time; ``progress.json`` says how far it is whole, and what comes after that is dropped when the
-work goes on. The state of a search is not kept: it is got back by telling the search again what it
-asked for, which takes milliseconds and is the same to the last bit for every method.
+a time; ``progress.json`` says how far it is whole, with the SHA-256 of that; what comes after it is
+dropped when the work goes on. The state of a search is not kept: it is got back by telling the
+search again what it asked for, which takes milliseconds and is the same to the last bit for every
+method.
 """
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import os
@@ -22,6 +24,7 @@ from saleg.files.atomic import write_text
 from saleg.files.lock import locked
 from saleg.files.reading import as_path, is_folder, named, read_text
 from saleg.files.tables import DamagedTable, labelled, read_table, write_table
+from saleg.quantities import is_whole
 from saleg.version import __version__
 
 if TYPE_CHECKING:
@@ -56,6 +59,7 @@ class Log:
         self.path = as_path(path, OptimisationError, "folder")
         self._bytes = 0
         self._designs = 0
+        self._digest = hashlib.sha256()
 
     @contextmanager
     def opened(self, identity: Mapping[str, Any]) -> Iterator[pd.DataFrame | None]:
@@ -113,17 +117,27 @@ class Log:
             os.fsync(log.fileno())
         self._bytes += len(lines.encode())
         self._designs += len(table)
-        self._write(PROGRESS, json.dumps({"bytes": self._bytes, "designs": self._designs}) + "\n")
+        self._digest.update(lines.encode())
+        held = {"bytes": self._bytes, "designs": self._designs, "sha256": self._digest.hexdigest()}
+        self._write(PROGRESS, json.dumps(held) + "\n")
 
     def _whole(self) -> pd.DataFrame | None:
         """Designs of the generations that are whole; what comes after them is dropped."""
-        path = self.path / DESIGNS
+        path, written = self.path / DESIGNS, None
         if (self.path / PROGRESS).exists():
             known = self._json(PROGRESS)
-            self._bytes, self._designs = (known.get(name, 0) for name in ("bytes", "designs"))
-        with named(path, OptimisationError, "write"), open(path, "ab") as log:
-            if log.tell() < self._bytes:
-                raise _damaged(path, f"it has {log.tell()} bytes in place of {self._bytes}")
+            written = known.get("sha256")  # which earlier folders lack
+            self._bytes, self._designs = (known.get(name, -1) for name in ("bytes", "designs"))
+            if not (is_whole(self._bytes, 0) and is_whole(self._designs, 0)):
+                raise _damaged(self.path / PROGRESS, "it lacks its numbers of bytes and designs")
+        with named(path, OptimisationError, "write"), open(path, "a+b") as log:
+            log.seek(0)
+            content = log.read()
+            if len(content) < self._bytes:
+                raise _damaged(path, f"it has {len(content)} bytes in place of {self._bytes}")
+            self._digest.update(content[: self._bytes])
+            if written not in (None, self._digest.hexdigest()):  # before anything is dropped
+                raise _damaged(path, f"it is not as it was written, by its SHA-256 in {PROGRESS}")
             log.truncate(self._bytes)
         if not self._bytes:
             return None

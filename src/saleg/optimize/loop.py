@@ -27,12 +27,24 @@ from saleg.quantities import as_float, is_whole
 if TYPE_CHECKING:
     import pandas as pd
 
+#: Evaluations at most; more would fill the memory, if they ever came to an end.
+MOST_EVALUATIONS = 10_000_000
 #: Columns of a table beside those of its problem.
 MARKS = ("generation", "copied", "verified")
 
 
 class Progress(NamedTuple):
-    """How far an optimisation is, after a generation that is on disk."""
+    """How far an optimisation is, after a generation that is on disk.
+
+    Attributes
+    ----------
+    generation : int
+        Number of the generation, from 1.
+    evaluations, of : int
+        Designs evaluated, and how many there may be.
+    best, mean : float
+        Best fitness so far, and the mean of this generation [-].
+    """
 
     generation: int
     evaluations: int
@@ -76,7 +88,7 @@ def optimize(
         Designs to begin with, a column per parameter (SI). Rows that have all other columns too,
         as those of ``found.table`` or of a sweep, are not evaluated again.
     stop_at : float
-        Fitness at which to end.
+        Fitness at which to end [-].
     report : callable, optional
         Called with a :class:`Progress` after every generation.
 
@@ -139,8 +151,9 @@ def _wrong(
     else:
         need = f"must be a method, or one of {', '.join(METHODS)}{nearest(method, METHODS)}"
         yield Wrong("method", method, "-", need)
-    if not is_whole(evaluations, 1):
-        yield Wrong("evaluations", evaluations, "-", "must be a whole number >= 1")
+    if not is_whole(evaluations, 1, MOST_EVALUATIONS):
+        need = f"must be a whole number from 1 to {MOST_EVALUATIONS}"
+        yield Wrong("evaluations", evaluations, "-", need)
     if not is_whole(seed, 0):
         yield Wrong("seed", seed, "-", "must be a whole number >= 0")
     if as_float(stop_at) is None or math.isnan(stop_at):
@@ -331,9 +344,10 @@ class _Course:
 
     def _described(self, table: pd.DataFrame) -> pd.DataFrame:
         """A table with its columns in order and their units."""
+        from saleg.simulation.shown_table import Table
+
         units = {**self._problem.units, **dict.fromkeys(MARKS, "-")}
-        table = table[list(units)]
-        table.attrs["units"] = units
+        table = Table.of(table[list(units)], units)
         table.attrs["inputs"] = list(self._problem.bounds)
         return table
 

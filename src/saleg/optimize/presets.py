@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,8 +14,11 @@ from saleg.design.score import Score
 from saleg.design.terms import Bell, Below, InvalidScore, Reached, Within
 from saleg.design.weighted import Weighted, WeightedScore
 from saleg.errors import Problem as Wrong
+from saleg.errors import SalegWarning
+from saleg.laws.usual import POWER
 from saleg.optimize.methods import GeneticAlgorithm
-from saleg.optimize.problem import Problem
+from saleg.optimize.problem import InvalidProblem, Problem
+from saleg.quantities import as_float, unusual_number
 
 Bounds = Mapping[str, tuple[float, float]]
 
@@ -75,7 +79,11 @@ class Preset:
         target_power: float | None = 4e3,
         compression_ratio: tuple[float, float] = (5.0, 35.0),
     ) -> Any:
-        """Score of rows; that of the script has no term for the compression ratio."""
+        """Score of rows; that of the script has no term for the compression ratio.
+
+        A power far from what has been built is warned of.
+        """
+        _warn_of_unusual_power(target_power)
         if self.as_scripted:
             return script_score(target_power)
         if not np.iterable(compression_ratio) or len(compression_ratio) != 2:
@@ -94,9 +102,19 @@ class Preset:
         compression_ratio: tuple[float, float] = (5.0, 35.0),
         bounds: Bounds | None = None,
     ) -> Problem:
-        """Problem in this box."""
+        """Problem in this box, with that score."""
         score = self.score(target_power, compression_ratio)
+        if bounds is not None and not isinstance(bounds, Mapping):
+            need = "must be a mapping of names to (lowest, highest)"
+            raise InvalidProblem([Wrong("bounds", bounds, "-", need)])
         return Problem({**self.box, **(bounds or {})}, score)
+
+
+def _warn_of_unusual_power(target_power: Any) -> None:
+    power = as_float(target_power)
+    odd = "" if power is None else unusual_number("target_power", power, "W", POWER)
+    if odd:
+        warnings.warn(f"unusual for an engine: {odd}", SalegWarning, stacklevel=3)
 
 
 def script_score(target_power: float | None = 4e3) -> WeightedScore:
@@ -104,6 +122,15 @@ def script_score(target_power: float | None = 4e3) -> WeightedScore:
 
     Stability is the change of the compression ratio from one half cycle to the next. The bells of
     stability and power are named there but not printed.
+
+    Parameters
+    ----------
+    target_power : float, optional
+        Power aimed at [W]; None leaves power out.
+
+    Returns
+    -------
+    WeightedScore
     """
     terms = [
         Reached("efficiency", 0.4, 0.4),

@@ -15,7 +15,8 @@ import numpy as np
 
 from saleg.batch.identity import described
 from saleg.batch.points import Evaluation
-from saleg.batch.table import CHUNK, MISSING, kind_of
+from saleg.batch.table import MISSING, MOST_TOGETHER, PIECES, kind_of
+from saleg.checks import as_array
 from saleg.design.designs import Design
 from saleg.design.score import Score
 from saleg.design.subjects import Subject, subject_of
@@ -34,8 +35,6 @@ if TYPE_CHECKING:
 
 #: Fitness of a design without a steady state, and from where downwards those that miss limits lie.
 FAILED, MISSES = -2e9, -1e9
-#: Pieces of work for each worker in a generation: so many that none waits long for the last one.
-PIECES = 16
 #: Columns of a table that say whether an orbit is stable.
 STABILITY = ("stable", "kind", "largest_multiplier", "beat_period")
 
@@ -96,7 +95,7 @@ class Problem:
         How much work a design may be. ``Effort.QUICK`` gives up one without an orbit from the
         standard starts after a few milliseconds.
     rtol : float
-        Tolerance of the integrator.
+        Tolerance of the integrator [-].
 
     Raises
     ------
@@ -208,9 +207,11 @@ class Problem:
         """Rows of designs, as :meth:`evaluate` gives them, without units."""
         import pandas as pd
 
-        held = X if isinstance(X, pd.DataFrame) else pd.DataFrame(np.asarray(X))
-        if not isinstance(X, pd.DataFrame) and len(held.columns) == len(self.bounds):
-            held.columns = list(self.bounds)
+        held = X
+        if not isinstance(X, pd.DataFrame):
+            array = as_array(X)
+            if array is not None and array.ndim == 2 and array.shape[1] == len(self.bounds):
+                held = pd.DataFrame(array, columns=list(self.bounds))
         found = list(wrong_designs("X", held, self.bounds))
         if found:
             raise InvalidProblem(found)
@@ -243,7 +244,7 @@ class Problem:
         return Told(table, values, missed, fitness, guide)
 
     def shown(self, fitness: float) -> float:
-        """First objective behind a fitness; NaN where limits are missed or nothing is found."""
+        """First objective behind a fitness, in its SI unit; NaN for missed limits and no result."""
         if not fitness > MISSES:
             return math.nan
         return fitness if self.objectives[0].maximise else -fitness
@@ -294,7 +295,7 @@ def evaluated(
 
     solver = partial(problem.subject.solver, problem.rtol, multipliers, False, problem.effort)
     at_once = PIECES * (workers or os.cpu_count() or 1)
-    chunk = min(max(math.ceil(len(points) / at_once), 1), CHUNK)
+    chunk = min(max(math.ceil(len(points) / at_once), 1), MOST_TOGETHER)
     evaluation = Evaluation(points, problem.subject, solver, chunk, executor, workers)
     rows = evaluation.table(dict(evaluation.parts()))
     columns = {name: points[name].to_numpy(dtype=float) for name in points}

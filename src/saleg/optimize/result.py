@@ -18,7 +18,7 @@ from saleg.optimize.problem import MISSES, InvalidProblem, Problem
 if TYPE_CHECKING:
     import pandas as pd
 
-    from saleg.plotting import Plots
+    from saleg.plotting.optimisation import OptimisationPlots
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,11 +103,11 @@ class Found:
         return solve(best, rtol=self.problem.rtol).engine
 
     @property
-    def plot(self) -> Plots:
+    def plot(self) -> OptimisationPlots:
         """Figures: ``found.plot.convergence()`` and so on; ``dir`` lists them."""
-        from saleg.plotting.optimisation import plots
+        from saleg.plotting.optimisation import OptimisationPlots
 
-        return plots(self)
+        return OptimisationPlots(self)
 
     @property
     def succeeded(self) -> bool:
@@ -115,6 +115,14 @@ class Found:
         told = self.problem.told(self.table)
         row = int(np.argmax(told.fitness))
         return bool(is_known(self.table.iloc[[row]])[0] and told.fitness[row] > MISSES)
+
+    def __repr__(self) -> str:
+        return f"<Found: {self}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import found_card
+
+        return found_card(self)
 
     def __str__(self) -> str:
         if not self.succeeded:

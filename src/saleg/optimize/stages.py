@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from saleg.checks import a, checked, whole
 from saleg.errors import Problem as Wrong
 from saleg.optimize.loop import optimize
 from saleg.optimize.methods import CMAES, CompassSearch, Method, default_method
 from saleg.optimize.objectives import Objective
-from saleg.optimize.problem import InvalidProblem
+from saleg.optimize.problem import InvalidProblem, Problem
 from saleg.optimize.result import Found
 
 #: Designs a second stage begins with.
@@ -85,7 +86,8 @@ def polish(found: Found, evaluations: int = 400, **further: Any) -> Found:
     return optimize(found.problem, CompassSearch(), evaluations, start=start, **further)
 
 
-def winners(found: Found, problem: Any = None, count: int = WINNERS) -> Any:
+@checked(problem=a(Problem).optional, count=whole(1))
+def winners(found: Found, problem: Problem | None = None, count: int = WINNERS) -> Any:
     """The best designs of a result, by the fitness of another problem with the same parameters.
 
     Parameters

@@ -2,9 +2,10 @@
 
 Every figure is a function of a run and, if wanted, of the axes to draw on; it returns the axes.
 Axes of one's own may belong to pyplot; those made here do not, so no display is needed and nothing
-has to be closed. ``run.plot`` offers the same functions: ``run.plot.forces()``. Figures of the
-numerical studies are in ``saleg.plotting.studies``, those of sensitivity studies in
-``saleg.plotting.sensitivity``, those of engines under control in ``saleg.plotting.control``.
+has to be closed; as the result of a notebook's cell they show the picture. ``run.plot`` offers the
+same functions: ``run.plot.forces()``. Figures of the numerical studies are in
+``saleg.plotting.studies``, those of sensitivity studies in ``saleg.plotting.sensitivity``, those of
+engines under control in ``saleg.plotting.control``.
 
 matplotlib is imported only when something is drawn.
 
@@ -19,7 +20,7 @@ Examples
 """
 
 from saleg.plotting import control, sensitivity, studies
-from saleg.plotting.animation import animate
+from saleg.plotting.animations import Animation, animate, animation
 from saleg.plotting.control import controlled
 from saleg.plotting.cycle import NoCycle
 from saleg.plotting.energy import energy_pie
@@ -54,11 +55,13 @@ __all__ = [
     "LEFT_COLOUR",
     "RIGHT_COLOUR",
     "TRANSLATOR_COLOUR",
+    "Animation",
     "AnimationError",
     "NoCycle",
     "Plots",
     "acceleration_velocity",
     "animate",
+    "animation",
     "approach_to_steady_state",
     "control",
     "controlled",

@@ -14,13 +14,14 @@ from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new, finish
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.steady.continuation import Branch
 
 UNSTABLE_COLOUR = "#CC3311"
 
 
 @documented()
-def bifurcation(branch: Branch, figure: str = "stroke", ax: Axes | None = None) -> Axes:
+def bifurcation(branch: Branch, figure: str = "stroke", ax: Axes | None = None) -> ShownAxes:
     """A figure of the steady states along a parameter: solid where stable, dashed where not.
 
     Parameters

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
@@ -11,14 +11,18 @@ import numpy as np
 from saleg.errors import SalegError
 from saleg.plotting.docstrings import documented
 from saleg.plotting.labels import axis_label
+from saleg.plotting.overlay import ALONE, Place, placed
 from saleg.plotting.style import (
     APART,
+    COINCIDING,
     COLOURS,
     DOTTED,
     MARKERS,
     TRANSLATOR_COLOUR,
     CurveLook,
+    Drawn,
     axes_or_new,
+    finish,
     marker,
 )
 from saleg.simulation.readable import readable
@@ -28,6 +32,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.simulation.run import Run
 
 #: Relative difference beyond which motored and actual pressure are two.
@@ -77,12 +82,15 @@ class Cycle:
     history : DataFrame
         SI, one row per instant, two at an event (before and after).
     events : DataFrame
+    place : Place
+        Of the run among those on the same axes.
     """
 
     run: Run
     strokes: np.ndarray
     history: pd.DataFrame
     events: pd.DataFrame
+    place: Place = ALONE
 
     @property
     def period(self) -> float:
@@ -101,10 +109,6 @@ class Cycle:
         """Rows of the history just before events."""
         return np.searchsorted(self.history["t"].to_numpy(), events["t"].to_numpy())
 
-    def titled(self, title: str) -> str:
-        """The title, with a warning if the run did not end well."""
-        return titled(self.run, title)
-
     @property
     def marked(self) -> pd.DataFrame:
         """Events that are drawn as markers."""
@@ -121,6 +125,30 @@ class Cycle:
 def titled(run: Run, title: str) -> str:
     """A figure's title, with a warning if the run did not end well."""
     return title if run.status.ended_well else f"{title} (the run ended: {run.status})"
+
+
+def title_of(ax: Axes, run: Run, title: str, place: Place) -> str:
+    """Title of axes on which a run was drawn: that of the first; names in the legend warn too."""
+    if place.number:
+        return ax.get_title()
+    return title if place.name else titled(run, title)
+
+
+def finish_cycle(
+    ax: Drawn,
+    cycle: Cycle,
+    title: str,
+    legend: str | None,
+    columns: int = 1,
+    *,
+    column_per_run: bool = False,
+) -> Drawn:
+    """Title, grid, frame and legend; the legend of runs with names covers none of their curves."""
+    place = cycle.place
+    if not place.alone:
+        legend = "below"
+        columns = min(place.columns, place.number + 1 if column_per_run else place.columns)
+    return finish(ax, title_of(ax, cycle.run, title, place), legend, columns)
 
 
 def is_orbit(run: Run) -> bool:
@@ -146,15 +174,17 @@ def last_cycle(run: Run) -> Cycle:
 class FigureOfRun(Protocol):
     """A figure of a run on one axes."""
 
-    def __call__(self, run: Run, ax: Axes | None = None) -> Axes:
+    def __call__(self, run: Run, ax: Axes | None = None, *, label: str | None = None) -> ShownAxes:
         """Draw on the axes handed in, or on new ones."""
 
 
-def figure_of_cycle(draw: Callable[[Cycle, Axes], Axes]) -> FigureOfRun:
+def figure_of_cycle(draw: Callable[[Cycle, ShownAxes], ShownAxes]) -> FigureOfRun:
     """Make a figure of a run from what draws its last cycle; completes the docstring."""
 
-    def figure(run: Run, ax: Axes | None = None) -> Axes:
-        return draw(last_cycle(run), axes_or_new(ax))
+    def figure(run: Run, ax: Axes | None = None, *, label: str | None = None) -> ShownAxes:
+        cycle, ax = last_cycle(run), axes_or_new(ax)
+        with placed(ax, run, label) as place:
+            return draw(replace(cycle, place=place), ax)
 
     figure.__module__, figure.__name__ = draw.__module__, draw.__name__
     figure.__qualname__ = draw.__qualname__
@@ -164,7 +194,8 @@ def figure_of_cycle(draw: Callable[[Cycle, Axes], Axes]) -> FigureOfRun:
 
 def time_axis(ax: Axes, cycle: Cycle) -> None:
     """Time over the whole cycle, from its left dead centre on."""
-    ax.set_xlim(0.0, TIME.scale * cycle.period)
+    end = TIME.scale * cycle.period
+    ax.set_xlim(0.0, max(end, ax.get_xlim()[1]) if cycle.place.number else end)
     ax.set_xlabel(TIME.label)
 
 
@@ -178,28 +209,34 @@ def draw_sides(
     motored: bool = False,
 ) -> None:
     """Curves of both chambers with their events, and of the motored pressure if there is one."""
-    dotted = motored and cycle.has_motored_pressure()
+    place, dotted = cycle.place, motored and cycle.has_motored_pressure()
+    looks = looks if place.alone else COINCIDING
     for side, look in looks.items():
-        x, colour = cycle(across, side), COLOURS[side]
+        x, colour = cycle(across, side), place.sides[side]
         if dotted:
             _draw_motored(ax, cycle, x, side)
         line: dict[str, Any] = {"linestyle": look.line, "linewidth": look.width}
-        ax.plot(x, cycle(up, side), color=colour, label=side, **line)
+        text = side if place.alone else place.name if side == "left" else f"_{place.name}"
+        ax.plot(x, cycle(up, side), color=colour, label=text, **line)
+    if not place.alone:
+        for side, look in looks.items():
+            ax.plot([], [], color="0.4", linestyle=look.line, linewidth=look.width, label=side)
     if dotted:
         ax.plot([], [], color="0.4", linestyle=DOTTED["left"], linewidth=1.8, label="motored")
     scales = {side: look.marker_scale for side, look in looks.items()}
-    _mark(ax, cycle, across, up, scales)
+    _mark(ax, cycle, across, up, place.sides, scales)
     ax.set_xlabel(across.label)
     ax.set_ylabel(up.label)
 
 
 def draw_translator(ax: Axes, cycle: Cycle, across: Quantity, up: Quantity) -> None:
     """Curve of the translator, with the events of both chambers."""
-    ax.plot(cycle(across), cycle(up), color=TRANSLATOR_COLOUR, linewidth=1.6, label="_translator")
+    look: dict[str, Any] = {"color": cycle.place.colour(TRANSLATOR_COLOUR), "linewidth": 1.6}
+    ax.plot(cycle(across), cycle(up), label=cycle.place.name or "_translator", **look)
     marked = set(cycle.marked["side"])
     for side in (side for side in COLOURS if side in marked):
         ax.plot([], [], color=COLOURS[side], marker="o", linestyle="none", label=side)
-    _mark(ax, cycle, across, up, {})
+    _mark(ax, cycle, across, up, COLOURS, {})
     ax.set_xlabel(across.label)
     ax.set_ylabel(up.label)
 
@@ -214,18 +251,25 @@ def _draw_motored(ax: Axes, cycle: Cycle, x: np.ndarray, side: str) -> None:
         ax.plot(
             x[part][order],
             pressure[part][order],
-            color=COLOURS[side],
+            color=cycle.place.sides[side],
             linestyle=DOTTED[side],
             linewidth=1.8,
             label=f"_motored {side}",
         )
 
 
-def _mark(ax: Axes, cycle: Cycle, across: Quantity, up: Quantity, scales: dict[str, float]) -> None:
+def _mark(
+    ax: Axes,
+    cycle: Cycle,
+    across: Quantity,
+    up: Quantity,
+    colours: dict[str, str],
+    scales: dict[str, float],
+) -> None:
     """Small markers, one shape per kind of event, in the colour (and size) of their side."""
     for kind, shape in MARKERS.items():
         of_kind = cycle.events[cycle.events["event"] == kind]
-        for side, colour in COLOURS.items():
+        for side, colour in colours.items():
             rows = cycle.rows_of(of_kind[of_kind["side"] == side])
             if len(rows):
                 look = marker(shape, colour, scales.get(side, 1.0))

@@ -27,6 +27,8 @@ from saleg.simulation.readable import readable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels, ShownAxes
+
 #: Most of a drawing's size, and the least width its title needs [inch].
 WIDEST, HIGHEST, NARROWEST = 10.6, 6.4, 4.5
 STROKE, BORE = readable("stroke", "m"), readable("bore", "m")
@@ -35,7 +37,7 @@ POWER = readable("power", "W")
 
 
 @documented()
-def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> Axes:
+def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> ShownAxes:
     """Draw the engine to scale with the translator at its midpoint (Figure 62) [mm].
 
     Springs and walls are schematic, a mover of unknown diameter is left out; all else that Table 7
@@ -112,7 +114,7 @@ def _label(ax: Axes, x: float, y: float, text: str) -> None:
 def alternator_map(
     powers: Sequence[float] = (1e3, 10e3, 100e3),
     ax: Sequence[Axes] | np.ndarray | None = None,
-) -> np.ndarray:
+) -> Panels:
     """Draw the alternator diameter [m] over stroke [mm] and frequency [Hz] (Figure 63, Eq. 60).
 
     Two poles, pole pitch equal to the stroke; one panel per power.
@@ -126,7 +128,7 @@ def alternator_map(
 
     Returns
     -------
-    array of matplotlib.axes.Axes
+    Panels
     """
     from matplotlib.colors import LogNorm
 
@@ -156,7 +158,7 @@ def alternator_map(
 
 
 @documented()
-def piston_mass(ax: Axes | None = None) -> Axes:
+def piston_mass(ax: Axes | None = None) -> ShownAxes:
     """Draw the mass of both piston heads [kg] over bore [mm] (Figure 65, Eq. 65)."""
     ax = axes_or_new(ax)
     bore = np.linspace(0.01, 0.1, 91)
@@ -168,7 +170,7 @@ def piston_mass(ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> Axes:
+def natural_frequency(rest: float = 1.5, ax: Axes | None = None) -> ShownAxes:
     """Draw the natural frequency [Hz] over spring stiffness [kN/m] (Figure 66, Eq. 67).
 
     ``sqrt(2 k / m) / (2 pi)``, with the springs' share of the moving mass growing and without; both

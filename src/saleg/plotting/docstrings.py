@@ -1,8 +1,8 @@
-"""Docstrings of figures, completed with what all of them share.
+"""Docstrings and arguments of figures: what all of them share.
 
 A figure's own docstring says what it draws, and describes the parameters that are its own. The
 decorator adds the sections every figure has: the parameters it shares with others in the order of
-its signature, what it returns, and what it raises.
+its signature, what it returns, and what it raises. What is drawn is checked by its name.
 """
 
 from __future__ import annotations
@@ -12,6 +12,14 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
+from saleg.checks import FRAME, a, checked
+from saleg.control import OperatingMap
+from saleg.design import Geometry
+from saleg.fundamental import History
+from saleg.simulation.run import Run
+from saleg.steady.continuation import Branch
+from saleg.studies.sensitivity import Study
+
 Draw = TypeVar("Draw", bound=Callable[..., Any])
 
 #: Parameters that mean the same in every figure; `ax` depends on the number of axes.
@@ -20,8 +28,22 @@ PARAMETERS = {
     "study": (
         "study : Study\n    From :func:`saleg.sensitivity.study` or one of the studies built on it."
     ),
+    "label": (
+        "label : str, optional\n"
+        "    Name of the run in the legend. Runs on the same axes differ in colour or line."
+    ),
     "history": "history : History",
     "histories": "histories : mapping of str to History\n    By the name in the legend.",
+}
+#: What a figure is drawn of, by the name of its parameter.
+SUBJECTS = {
+    "run": a(Run),
+    "study": a(Study),
+    "history": a(History),
+    "table": FRAME,
+    "known": a(OperatingMap),
+    "branch": a(Branch),
+    "geometry": a(Geometry),
 }
 NUMBERS = {2: "two", 4: "four", 5: "five", 6: "six", 8: "eight"}
 #: What figures raise, by their first parameter.
@@ -32,7 +54,7 @@ RAISES = {
 
 
 def documented(axes: int = 1) -> Callable[[Draw], Draw]:
-    """Complete the docstring of a figure.
+    """Complete the docstring of a figure, and check what it is drawn of.
 
     Parameters
     ----------
@@ -50,7 +72,7 @@ def documented(axes: int = 1) -> Callable[[Draw], Draw]:
         if draw.__doc__ is not None:  # python -OO has none
             names = list(inspect.signature(draw).parameters)
             draw.__doc__ = completed(draw.__doc__, names, axes)
-        return draw
+        return checked(**SUBJECTS)(draw)  # type: ignore[return-value]
 
     return complete
 
@@ -76,7 +98,7 @@ def completed(text: str, names: Sequence[str], axes: int = 1) -> str:
     taken, returned = kind, kind
     if axes > 1:
         taken = f"array of {NUMBERS[axes]} {kind}"
-        returned = f"ndarray of {kind}, shape ({axes},)"
+        returned = f"Panels\n    Array of {NUMBERS[axes]} {kind}; ``.figure`` holds them all."
     place = f"ax : {taken}, optional\n    Axes to draw on; new ones unless given."
     shared = {**PARAMETERS, "ax": place, **_entries(sections.pop("Parameters", ""))}
     sections = {

@@ -11,6 +11,7 @@ from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.simulation.performance import EnergyBalance
     from saleg.simulation.run import Run
 
@@ -92,8 +93,13 @@ def joules(energy: float) -> str:
     return f"{energy:.0f} J" if abs(energy) >= 100.0 else f"{energy:.3g} J"
 
 
+def named(title: str, label: str | None) -> str:
+    """Title of a figure that shows one run alone, with the name of the run."""
+    return f"{label}: {title[0].lower()}{title[1:]}" if label else title
+
+
 @documented()
-def energy_pie(run: Run, ax: Axes | None = None) -> Axes:
+def energy_pie(run: Run, ax: Axes | None = None, *, label: str | None = None) -> ShownAxes:
     """Draw where the fuel's energy went in the last full cycle [%] (Figure 41 of the thesis).
 
     Raises
@@ -124,5 +130,6 @@ def energy_pie(run: Run, ax: Axes | None = None) -> Axes:
     look: dict[str, Any] = {"fontsize": "small", "frameon": False, "loc": "center left"}
     ax.legend(wedges, names, bbox_to_anchor=(1.0, 0.5), **look)
     ax.set_anchor("E")  # beside the legend, which the layout makes room for, however wide the axes
-    ax.set_title(titled(run, f"Fuel energy of a cycle: {joules(balance.fuel)}"), fontsize="medium")
+    title = named(f"Fuel energy of a cycle: {joules(balance.fuel)}", label)
+    ax.set_title(titled(run, title), fontsize="medium")
     return ax

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.design import formulas
+from saleg.design.schematic import SIDES, dimensions
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.plotting.cycle import PRESSURE, TIME, VOLUME, Quantity, last_cycle
@@ -29,50 +28,12 @@ if TYPE_CHECKING:
 
 #: Height over width, and dots per inch.
 SHAPE, DOTS = 0.62, 80
-SIDES = {"left": -1.0, "right": 1.0}
 #: Time since the beginning of what is shown.
 SHOWN_TIME = TIME._replace(label=axis_label(readable("", "s", "time")))
 
 
 class AnimationError(SalegError, ValueError):
     """An animation that cannot be made as asked."""
-
-
-def dimensions(engine: Engine, side: str) -> dict[str, float]:
-    """Dimensions of one side of an engine for the drawing [mm].
-
-    Bore, clearances and ports are the engine's; rod, mover and the room between are such that all
-    of it has space to move.
-
-    Parameters
-    ----------
-    engine : Engine
-    side : str
-        "left" or "right".
-
-    Returns
-    -------
-    dict of str to float
-        As :mod:`saleg.plotting.machine` takes them.
-    """
-    chamber = engine.chambers[list(SIDES).index(side)]
-    reach = 1e3 * max(part.half_stroke for part in engine.chambers)
-    bore = 1e3 * max(part.bore for part in engine.chambers)
-    mover_end = 0.7 * reach
-    bearing = mover_end + reach
-    crown = bearing + reach + 1e3 * (formulas.crown_position(0.0))
-    head = crown + 1e3 * chamber.half_stroke
-    return {
-        "bore": 1e3 * chamber.bore,
-        "rod_diameter": 0.25 * bore,
-        "mover_end": mover_end,
-        "mover_outer_diameter": 1.15 * bore,
-        "mover_inner_diameter": 0.75 * bore,
-        "bearing": bearing,
-        "port": head - 1e3 * getattr(chamber, "port_closing", math.nan),
-        "crown": crown,
-        "head": head,
-    }
 
 
 @dataclass

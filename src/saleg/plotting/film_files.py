@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 PALETTE = 128
 
 
-def _write_gif(film: Film, path: Path) -> None:
+def write_gif(film: Film, path: Path | BytesIO) -> None:
     """All frames in one GIF that begins again at its end."""
     from PIL import Image
 
@@ -83,4 +84,4 @@ def _glyphs() -> str:
 
 
 #: How each kind of file is written, by suffix.
-WRITERS: dict[str, Callable[[Film, Path], None]] = {".gif": _write_gif, ".html": _write_html}
+WRITERS: dict[str, Callable[[Film, Path], None]] = {".gif": write_gif, ".html": _write_html}

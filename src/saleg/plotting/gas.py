@@ -13,16 +13,17 @@ from saleg.plotting.cycle import (
     Cycle,
     draw_sides,
     figure_of_cycle,
+    finish_cycle,
     time_axis,
 )
-from saleg.plotting.style import COINCIDING, finish, from_zero, zero_lines
+from saleg.plotting.style import COINCIDING, from_zero, zero_lines
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from saleg.plotting.figure import ShownAxes
 
 
 @figure_of_cycle
-def pressure_volume(cycle: Cycle, ax: Axes) -> Axes:
+def pressure_volume(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw pressure [bar] over volume [cm^3] of both chambers over the last full cycle.
 
     The motored pressure is dotted if ``simulate(..., motored_pressure=True)`` integrated it.
@@ -30,22 +31,22 @@ def pressure_volume(cycle: Cycle, ax: Axes) -> Axes:
     draw_sides(ax, cycle, VOLUME, PRESSURE, COINCIDING, motored=True)
     ax.set_xlim(0.0, 1.05 * ax.dataLim.xmax)
     from_zero(ax)
-    return finish(ax, cycle.titled("Pressure and volume"), _clear_of(cycle, "upper right"))
+    return finish_cycle(ax, cycle, "Pressure and volume", _clear_of(cycle, "upper right"))
 
 
 @figure_of_cycle
-def pressure_position(cycle: Cycle, ax: Axes) -> Axes:
+def pressure_position(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw pressure [bar] of both chambers over position [mm] (Figure 38 of the thesis).
 
     The motored pressure is dotted if ``simulate(..., motored_pressure=True)`` integrated it.
     """
     draw_sides(ax, cycle, POSITION, PRESSURE, motored=True)
     from_zero(ax)
-    return finish(ax, cycle.titled("Pressure and position"), _clear_of(cycle, "upper center"))
+    return finish_cycle(ax, cycle, "Pressure and position", _clear_of(cycle, "upper center"))
 
 
 @figure_of_cycle
-def pressure_time(cycle: Cycle, ax: Axes) -> Axes:
+def pressure_time(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw pressure [bar] of both chambers over time [ms] (Figure 39 of the thesis).
 
     The cycle begins at left dead centre. The motored pressure is dotted if
@@ -54,11 +55,11 @@ def pressure_time(cycle: Cycle, ax: Axes) -> Axes:
     draw_sides(ax, cycle, TIME, PRESSURE, motored=True)
     time_axis(ax, cycle)
     from_zero(ax)
-    return finish(ax, cycle.titled("Pressure in time"), "below", columns=4)
+    return finish_cycle(ax, cycle, "Pressure in time", "below", columns=4)
 
 
 @figure_of_cycle
-def heat_flow_time(cycle: Cycle, ax: Axes) -> Axes:
+def heat_flow_time(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw heat flow to the walls [kW] of both chambers over time [ms].
 
     Figure 39 of the thesis calls it heat flux; here it is the whole flow of heat to head, liner and
@@ -68,7 +69,7 @@ def heat_flow_time(cycle: Cycle, ax: Axes) -> Axes:
     draw_sides(ax, cycle, TIME, HEAT_FLOW)
     zero_lines(ax, y=True)
     time_axis(ax, cycle)
-    return finish(ax, cycle.titled("Heat to the walls in time"), "below", columns=3)
+    return finish_cycle(ax, cycle, "Heat to the walls in time", "below", columns=3)
 
 
 def _clear_of(cycle: Cycle, place: str) -> str:

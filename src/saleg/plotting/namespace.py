@@ -1,84 +1,94 @@
-"""``run.plot`` and its like: figures of a result under their names."""
+"""``run.plot`` and its like: figures of a result as methods."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from types import MethodType
-from typing import Any
+from typing import TYPE_CHECKING, Any, Concatenate, Generic, ParamSpec, TypeVar
 
 from saleg.errors import nearest
-from saleg.plotting.control.timelines import controlled
-from saleg.plotting.energy import energy_pie
-from saleg.plotting.gas import (
-    heat_flow_time,
-    pressure_position,
-    pressure_time,
-    pressure_volume,
-)
-from saleg.plotting.overview import approach_to_steady_state, dynamics
-from saleg.plotting.sankey import energy_balance, energy_sankey
-from saleg.plotting.translator import (
-    acceleration_velocity,
-    efficiency,
-    forces,
-    power,
-    velocity_position,
-)
+from saleg.plotting import animations, energy, gas, overview, sankey, translator
+from saleg.plotting.control import timelines
 
-#: All figures of a run by name.
-FIGURES: dict[str, Callable[..., Any]] = {
-    "velocity_position": velocity_position,
-    "acceleration_velocity": acceleration_velocity,
-    "pressure_position": pressure_position,
-    "pressure_volume": pressure_volume,
-    "pressure_time": pressure_time,
-    "heat_flow_time": heat_flow_time,
-    "forces": forces,
-    "power": power,
-    "efficiency": efficiency,
-    "energy_balance": energy_balance,
-    "energy_sankey": energy_sankey,
-    "energy_pie": energy_pie,
-    "approach_to_steady_state": approach_to_steady_state,
-    "dynamics": dynamics,
-    "controlled": controlled,
-}
+Settings = ParamSpec("Settings")
+Drawn = TypeVar("Drawn")
 
 
-class Plots:
-    """Figures of a result: ``run.plot.pressure_volume()`` and so on; ``dir`` lists them.
+class Method(Generic[Settings, Drawn]):
+    """A figure as a method: a function whose first parameter is what it is drawn of."""
 
-    Each returns its axes, ``ax``; ``ax.figure.savefig("name.png")`` saves the picture, and
-    ``ax.figure`` at the end of a notebook's cell shows it.
+    def __init__(self, draw: Callable[Concatenate[Any, Settings], Drawn]):
+        self.draw = draw
+
+    def __get__(self, plots: Namespace | None, kind: type) -> Callable[Settings, Drawn]:
+        method: Any = self.draw if plots is None else MethodType(self.draw, plots._result)
+        return method
+
+
+class Namespace:
+    """Figures of a result; ``dir`` lists them.
 
     Parameters
     ----------
     result : Run or another result
         What each figure is drawn of.
-    figures : mapping
-        Functions by name, each with the result as its first parameter.
-    kind : str
-        What the result is, in words.
     """
 
-    def __init__(
-        self,
-        result: Any,
-        figures: Mapping[str, Callable[..., Any]] = FIGURES,
-        kind: str = "a run",
-    ):
-        self._result, self._figures, self._kind = result, figures, kind
+    _kind = "a result"
 
-    def __getattr__(self, name: str) -> Callable[..., Any]:
-        if name.startswith("_"):  # also before __init__, as copy and pickle ask
-            raise AttributeError(name)
-        if name in self._figures:
-            return MethodType(self._figures[name], self._result)
-        hint = nearest(name, self._figures) or "; there are " + ", ".join(self._figures)
-        raise AttributeError(f"no figure {name!r}{hint}")
+    def __init__(self, result: Any):
+        self._result = result
+
+    @classmethod
+    def _figures(cls) -> dict[str, Callable[..., Any]]:
+        """The functions behind the methods, by name."""
+        return {name: item.draw for name, item in vars(cls).items() if isinstance(item, Method)}
+
+    if not TYPE_CHECKING:  # a type checker is to refuse what is not there
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):  # also before __init__, as copy and pickle ask
+                raise AttributeError(name)
+            hint = nearest(name, self._figures()) or "; there are " + ", ".join(self._figures())
+            raise AttributeError(f"no figure {name!r}{hint}")
 
     def __dir__(self) -> list[str]:
-        return list(self._figures)
+        return list(self._figures())
 
     def __repr__(self) -> str:
-        return f"figures of {self._kind}: " + ", ".join(self._figures)
+        return f"figures of {self._kind}: " + ", ".join(self._figures())
+
+
+class Plots(Namespace):
+    """Figures of a run: ``run.plot.pressure_volume()`` and so on; ``dir`` lists them.
+
+    Each returns its axes, or an array of them, which show as the result of a notebook's cell;
+    ``.figure.savefig("name.png")`` saves the picture.
+
+    Parameters
+    ----------
+    result : Run
+    """
+
+    _kind = "a run"
+
+    velocity_position = Method(translator.velocity_position)
+    acceleration_velocity = Method(translator.acceleration_velocity)
+    pressure_position = Method(gas.pressure_position)
+    pressure_volume = Method(gas.pressure_volume)
+    pressure_time = Method(gas.pressure_time)
+    heat_flow_time = Method(gas.heat_flow_time)
+    forces = Method(translator.forces)
+    power = Method(translator.power)
+    efficiency = Method(translator.efficiency)
+    energy_balance = Method(sankey.energy_balance)
+    energy_sankey = Method(sankey.energy_sankey)
+    energy_pie = Method(energy.energy_pie)
+    approach_to_steady_state = Method(overview.approach_to_steady_state)
+    dynamics = Method(overview.dynamics)
+    controlled = Method(timelines.controlled)
+    animation = Method(animations.animation)
+
+
+#: All figures of a run by name.
+FIGURES = {name: draw for name, draw in Plots._figures().items() if name != "animation"}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from saleg.optimize.stages import winners
 from saleg.plotting import sweeps
 from saleg.plotting.docstrings import documented
 from saleg.plotting.labels import axis_label, column, label, values
-from saleg.plotting.namespace import Plots
+from saleg.plotting.namespace import Method, Namespace
 from saleg.plotting.scores import score_terms
 from saleg.plotting.style import LEFT_COLOUR, RIGHT_COLOUR, axes_or_new, finish
 
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.optimize.result import Found
+    from saleg.plotting.figure import Panels, ShownAxes
 
 #: Figures beside the parameters in parallel coordinates.
 BESIDE = ("efficiency", "power", "compression_ratio", "frequency")
@@ -33,7 +33,7 @@ LEADING: dict[str, Any] = {"color": LEFT_COLOUR, "marker": "o", "markersize": 4,
 
 
 @documented()
-def convergence(found: Found, ax: Axes | None = None) -> Axes:
+def convergence(found: Found, ax: Axes | None = None) -> ShownAxes:
     """Draw the best objective so far and the mean of each generation over evaluations (Figure 86).
 
     The mean of the genetic algorithm is that over parents and children before selection.
@@ -87,7 +87,7 @@ def design_map(
 
 
 @documented(axes=8)
-def groups(found: Found, x: str = "stroke_to_bore", ax: Any = None) -> np.ndarray:
+def groups(found: Found, x: str = "stroke_to_bore", ax: Any = None) -> Panels:
     """Draw all designs evaluated over a dimensionless group, in eight panels (Figures 117-124).
 
     Parameters
@@ -102,7 +102,7 @@ def groups(found: Found, x: str = "stroke_to_bore", ax: Any = None) -> np.ndarra
 @documented()
 def archive(
     found: Found, across: Axis | None = None, up: Axis | None = None, ax: Axes | None = None
-) -> Axes:
+) -> ShownAxes:
     """Draw the best objective in every cell of a map over two figures.
 
     A cell without colour holds no design that meets the limits.
@@ -140,7 +140,7 @@ def _axes_of_map(found: Found, across: Axis | None, up: Axis | None) -> tuple[Ax
 
 
 @documented()
-def parallel(found: Found, count: int = 100, ax: Axes | None = None) -> Axes:
+def parallel(found: Found, count: int = 100, ax: Axes | None = None) -> ShownAxes:
     """Draw the best designs as lines over parameters and figures, the best one thick.
 
     Every axis runs from the lower to the upper bound of its parameter, or from the least to the
@@ -196,7 +196,7 @@ def _ends(found: Found, kept: pd.DataFrame, name: str) -> tuple[float, float]:
 
 
 @documented()
-def front(found: Found, ax: Axes | None = None) -> Axes:
+def front(found: Found, ax: Axes | None = None) -> ShownAxes:
     """Draw designs over the first two objectives, and the front of those none of which is better.
 
     Parameters
@@ -220,7 +220,7 @@ def front(found: Found, ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def score(found: Found, ax: Any = None) -> np.ndarray:
+def score(found: Found, ax: Any = None) -> Panels:
     """Draw what each term of the score earns over its figure (Figure 85).
 
     Parameters
@@ -231,13 +231,13 @@ def score(found: Found, ax: Any = None) -> np.ndarray:
 
     Returns
     -------
-    ndarray of matplotlib.axes.Axes
+    Panels
     """
     return score_terms(found.problem.score, ax)
 
 
 @documented()
-def engine(found: Found, ax: Axes | None = None) -> Axes:
+def engine(found: Found, ax: Axes | None = None) -> ShownAxes:
     """Draw the best design to scale with the translator at its midpoint [mm].
 
     Parameters
@@ -250,19 +250,25 @@ def engine(found: Found, ax: Axes | None = None) -> Axes:
     return solve(best, rtol=found.problem.rtol).draw(ax)
 
 
+class OptimisationPlots(Namespace):
+    """Figures of an optimisation: ``found.plot.convergence()`` and so on; ``dir`` lists them.
+
+    Parameters
+    ----------
+    result : Found
+    """
+
+    _kind = "an optimisation"
+
+    convergence = Method(convergence)
+    design_map = Method(design_map)
+    groups = Method(groups)
+    archive = Method(archive)
+    parallel = Method(parallel)
+    front = Method(front)
+    score = Method(score)
+    engine = Method(engine)
+
+
 #: Figures of an optimisation by name.
-FIGURES: dict[str, Callable[..., Any]] = {
-    "convergence": convergence,
-    "design_map": design_map,
-    "groups": groups,
-    "archive": archive,
-    "parallel": parallel,
-    "front": front,
-    "score": score,
-    "engine": engine,
-}
-
-
-def plots(found: Found) -> Plots:
-    """``found.plot``: the figures of an optimisation under their names."""
-    return Plots(found, FIGURES, "an optimisation")
+FIGURES = OptimisationPlots._figures()

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.plotting.cycle import NoCycle, last_cycle, titled
+from saleg.plotting.cycle import NoCycle, last_cycle, title_of
 from saleg.plotting.docstrings import documented
 from saleg.plotting.gas import pressure_position
-from saleg.plotting.labels import label, values
+from saleg.plotting.labels import label as label_of
+from saleg.plotting.labels import values
+from saleg.plotting.overlay import Place, placed, runs_on
 from saleg.plotting.style import (
     COINCIDING,
-    COLOURS,
     TRANSLATOR_COLOUR,
     finish,
+    legend_below,
     panels_or_new,
 )
 from saleg.plotting.translator import velocity_position
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
     from saleg.simulation.run import Run
 
 
@@ -32,19 +35,27 @@ MIN_SPAN = 1e-4
 
 
 @documented(axes=2)
-def dynamics(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def dynamics(
+    run: Run, ax: Sequence[Axes] | np.ndarray | None = None, *, label: str | None = None
+) -> Panels:
     """Draw velocity and pressures over position side by side (Figure 92 of the thesis)."""
     last_cycle(run)
     panels = panels_or_new(ax, (1, 2), 10.0, 4.2)
-    legend = velocity_position(run, panels[0]).get_legend()
-    if legend is not None:
-        legend.remove()  # that of the pressures has it all
-    pressure_position(run, panels[1])
+    velocity_position(run, panels[0], label=label)
+    pressure_position(run, panels[1], label=label)
+    compared = label or runs_on(panels[1]) > 1
+    for panel in panels if compared else panels[:1]:
+        if panel.get_legend() is not None:
+            panel.get_legend().remove()  # that of the pressures has it all
+    if compared:
+        legend_below(panels[1:], columns=6)
     return panels
 
 
 @documented(axes=4)
-def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def approach_to_steady_state(
+    run: Run, ax: Sequence[Axes] | np.ndarray | None = None, *, label: str | None = None
+) -> Panels:
     """Draw how a run settles, one point per cycle (Figure 42 of the thesis).
 
     Stroke [mm], dead centres as distances from the midpoint [mm], compression ratio and electrical
@@ -54,30 +65,45 @@ def approach_to_steady_state(run: Run, ax: Sequence[Axes] | np.ndarray | None = 
     if len(cycles) == 0:
         raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
     panels = panels_or_new(ax, (2, 2), 9.0, 5.4)
+    with placed(panels[0], run, label) as place:
+        _draw_cycles(panels, run, place)
+    stroke, centres, *_ = panels
+    title = title_of(stroke, run, "Approach to steady state", place)
+    for panel in panels:
+        finish(panel, "", "best" if panel is centres and place.alone else None)
+    if not place.alone:
+        legend_below(panels)
+    stroke.set_title(title, fontsize="medium")
+    return panels
+
+
+def _draw_cycles(panels: Panels, run: Run, place: Place) -> None:
+    """Stroke, dead centres, compression ratio and power of every cycle over time."""
+    cycles = run.cycles
     time = (cycles["t"] + cycles["period"]).to_numpy()
-    grey, points = TRANSLATOR_COLOUR, {"marker": ".", "markersize": 4.0}
     stroke, centres, ratio, power = panels
-    stroke.plot(time, values(cycles, "stroke"), color=grey, **points)
+    points: dict[str, Any] = {"marker": ".", "markersize": 4.0}
+    line = {**points, "color": place.colour(TRANSLATOR_COLOUR), "label": place.name or "_cycles"}
+    stroke.plot(time, values(cycles, "stroke"), **line)
     for side, sign in (("left", -1.0), ("right", 1.0)):
         look = {**points, "linestyle": COINCIDING[side].line, "linewidth": COINCIDING[side].width}
-        place = sign * values(cycles, f"x_{side}")
-        centres.plot(time, place, color=COLOURS[side], label=side, **look)
-    ratio.plot(time, cycles["compression_ratio"].to_numpy(), color=grey, **points)
-    power.plot(time, values(cycles, "power"), color=grey, **points)
+        distance = sign * values(cycles, f"x_{side}")
+        centres.plot(time, distance, color=place.sides[side], label=place.text(side), **look)
+    ratio.plot(time, cycles["compression_ratio"].to_numpy(), **line)
+    power.plot(time, values(cycles, "power"), **line)
     for panel, name, words in (
         (stroke, "stroke", ""),
         (centres, "x_right", "dead centres, |x|"),
         (ratio, "compression_ratio", ""),
         (power, "power", "mean power"),
     ):
-        start = float(cycles["t"].iloc[0])
-        panel.set_xlim(start, time[-1] + 0.02 * (time[-1] - start))
-        panel.set_xlabel(label(cycles, "t"))
-        panel.set_ylabel(label(cycles, name, words))
+        start, end = float(cycles["t"].iloc[0]), float(time[-1])
+        if place.number:
+            start, end = min(start, panel.get_xlim()[0]), max(end, panel.get_xlim()[1])
+        panel.set_xlim(start, end + 0.02 * (end - start) * (place.number == 0))
+        panel.set_xlabel(label_of(cycles, "t"))
+        panel.set_ylabel(label_of(cycles, name, words))
         _readable(panel)
-        finish(panel, "", "best" if panel is centres else None)
-    stroke.set_title(titled(run, "Approach to steady state"), fontsize="medium")
-    return panels
 
 
 def _readable(ax: Axes) -> None:

@@ -7,12 +7,20 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from saleg.plotting.cycle import NoCycle, titled
 from saleg.plotting.docstrings import documented
-from saleg.plotting.energy import FLOW_COLOURS, VISIBLE, balance_of, joules, visible_flows
+from saleg.plotting.energy import (
+    FLOW_COLOURS,
+    VISIBLE,
+    balance_of,
+    joules,
+    named,
+    visible_flows,
+)
 from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.simulation.performance import EnergyBalance
     from saleg.simulation.run import Run
 
@@ -33,7 +41,7 @@ class _Node(NamedTuple):
 
 
 @documented()
-def energy_sankey(run: Run, ax: Axes | None = None) -> Axes:
+def energy_sankey(run: Run, ax: Axes | None = None, *, label: str | None = None) -> ShownAxes:
     """Draw the energy balance of the last full cycle as a Sankey diagram [J, %].
 
     Widths and percentages are parts of the energy of the fresh fuel. Energy that comes from
@@ -65,7 +73,7 @@ def energy_sankey(run: Run, ax: Axes | None = None) -> Axes:
     ax.set_xlim(-0.1, 5.5 * STEP)
     ax.set_ylim(lowest - 0.02, highest)
     ax.set_axis_off()
-    ax.set_title(titled(run, "Energy balance of a cycle"), fontsize="medium")
+    ax.set_title(titled(run, named("Energy balance of a cycle", label)), fontsize="medium")
     return ax
 
 

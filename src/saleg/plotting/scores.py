@@ -17,6 +17,7 @@ from saleg.simulation.readable import readable
 
 if TYPE_CHECKING:
     from saleg.design.terms import Term
+    from saleg.plotting.figure import Panels
 
 #: Fields of terms that are values of their figure, and those that are lengths along it.
 PLACES, LENGTHS = ("target", "limit", "low", "high"), ("tolerance", "width")
@@ -25,7 +26,7 @@ UNIT_INTERVAL = (0.0, 1.0)
 
 
 @documented()
-def score_terms(score: Any, ax: Any = None) -> np.ndarray:
+def score_terms(score: Any, ax: Any = None) -> Panels:
     """Draw what each term of a score earns over its figure (Figure 85).
 
     Parameters
@@ -36,7 +37,7 @@ def score_terms(score: Any, ax: Any = None) -> np.ndarray:
 
     Returns
     -------
-    ndarray of matplotlib.axes.Axes
+    Panels
 
     Raises
     ------

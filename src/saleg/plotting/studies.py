@@ -18,13 +18,15 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
+
 MARKERS = "osD^vPX*"
 STEP = readable("step", "s", "fixed step")
 EFFICIENCY = readable("efficiency", "-")
 
 
 @documented()
-def work_precision(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
+def work_precision(table: pd.DataFrame, ax: Axes | None = None) -> ShownAxes:
     """Draw error [-] over right-hand sides evaluated [-], one line per method.
 
     Parameters
@@ -49,7 +51,7 @@ def delay(
     table: pd.DataFrame,
     ax: Axes | None = None,
     printed: Mapping[float, Mapping[str, float]] | None = None,
-) -> Axes:
+) -> ShownAxes:
     """Draw efficiency [%] over step [µs] for several delays of the gas force.
 
     Parameters

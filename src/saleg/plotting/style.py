@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from saleg.errors import AxesError
+from saleg.checks import POSITIVE, checked
+from saleg.errors import AxesError, shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from saleg.plotting.figure import Panels, ShownAxes
 
 #: Colours of the two chambers in every plot (Okabe and Ito, safe for the colour-blind).
 LEFT_COLOUR = "#0072B2"
@@ -34,6 +37,9 @@ MARKERS = {
 }
 
 
+Drawn = TypeVar("Drawn", bound="Axes")
+
+
 class CurveLook(NamedTuple):
     """Look of the curve of one side."""
 
@@ -42,6 +48,8 @@ class CurveLook(NamedTuple):
     marker_scale: float
 
 
+#: Marks the legend below all panels.
+BELOW_PANELS = "saleg: legend below the panels"
 #: Distance from the axes to a legend below them, past ticks and label [pt].
 BELOW = 38.0
 
@@ -53,10 +61,11 @@ COINCIDING = {"left": CurveLook("-", 2.4, 1.7), "right": CurveLook((0, (4, 2)), 
 DOTTED: dict[str, Any] = {"left": (0, (1, 2.6)), "right": (1.8, (1, 2.6))}
 
 
+@checked(width=POSITIVE, height=POSITIVE)
 def new_figure(width: float = 6.4, height: float = 4.4) -> Figure:
     """Make an empty figure that needs no display.
 
-    It shows as the result of a notebook's cell.
+    It shows as the result of a notebook's cell, and so do its axes.
 
     Parameters
     ----------
@@ -76,7 +85,7 @@ def new_figure(width: float = 6.4, height: float = 4.4) -> Figure:
     return figure
 
 
-def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> Axes:
+def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> ShownAxes:
     """The axes handed in, or those of a new figure of the given size [inch].
 
     Raises
@@ -84,7 +93,8 @@ def axes_or_new(ax: Axes | None, width: float = 6.4, height: float = 4.4) -> Axe
     AxesError
         If it is no axes.
     """
-    return new_figure(width, height).subplots() if ax is None else _checked(ax)
+    drawn: Any = new_figure(width, height).subplots() if ax is None else _checked(ax)
+    return drawn
 
 
 def panels_or_new(
@@ -94,7 +104,7 @@ def panels_or_new(
     height: float,
     count: int | None = None,
     **settings: Any,
-) -> np.ndarray:
+) -> Panels:
     """The axes handed in, or new ones in rows and columns, as a flat array.
 
     Parameters
@@ -112,20 +122,22 @@ def panels_or_new(
 
     Returns
     -------
-    ndarray of matplotlib.axes.Axes
+    Panels
 
     Raises
     ------
     AxesError
         If there are not as many axes as the figure needs.
     """
+    from saleg.plotting.figure import Panels
+
     needed = shape[0] * shape[1] if count is None else count
     if ax is None:
         made = new_figure(width, height).subplots(*shape, squeeze=False, **settings).ravel()
         for spare in made[needed:]:
             spare.remove()
-        return np.asarray(made[:needed])
-    panels = np.asarray(ax, dtype=object).ravel()
+        return Panels.of(made[:needed])
+    panels = Panels.of(np.ravel(np.asarray(ax, dtype=object)))
     if len(panels) != needed:
         raise AxesError(f"this figure needs {needed} axes, not {len(panels)}; {_HINT}")
     for panel in panels:
@@ -142,7 +154,7 @@ def _checked(ax: Any) -> Any:
 
     if not isinstance(ax, Axes):
         many = isinstance(ax, (np.ndarray, list, tuple))
-        what = f"{len(ax)} in a {type(ax).__name__}" if many else repr(ax)
+        what = f"{len(ax)} in a {type(ax).__name__}" if many else shown(ax)
         raise AxesError(f"ax must be one matplotlib axes here, not {what}")
     return ax
 
@@ -173,7 +185,7 @@ def from_zero(ax: Axes) -> None:
     ax.set_ylim(0.0, 1.05 * ax.dataLim.ymax)
 
 
-def finish(ax: Axes, title: str, legend: str | None, columns: int = 1) -> Axes:
+def finish(ax: Drawn, title: str, legend: str | None, columns: int = 1) -> Drawn:
     """Title, grid, frame and legend; the legend ``"below"`` stands under the axes."""
     ax.set_title(title, fontsize="medium")
     ax.grid(visible=True, color="0.92", linewidth=0.6)
@@ -191,18 +203,27 @@ def finish(ax: Axes, title: str, legend: str | None, columns: int = 1) -> Axes:
         look |= {"bbox_transform": ax.transAxes + down}
     else:
         look |= {"loc": legend}
-    handles, labels = ax.get_legend_handles_labels()
-    ax.legend(handles, labels, ncols=columns, **look)
+    entries = legend_entries([ax])
+    ax.legend(list(entries.values()), list(entries), ncols=columns, **look)
     return ax
 
 
-def legend_below(panels: Iterable[Axes], columns: int = 4) -> None:
-    """Draw one legend for all panels of a figure, below them; every text once."""
-    axes, handles = list(panels), dict[str, Any]()
-    for panel in axes:
+def legend_entries(panels: Iterable[Axes]) -> dict[str, Any]:
+    """What the legend of some axes shows by its text, every text once."""
+    entries: dict[str, Any] = {}
+    for panel in panels:
         for handle, text in zip(*panel.get_legend_handles_labels(), strict=True):
-            handles.setdefault(text, handle)
-    if handles:
+            entries.setdefault(text, handle)
+    return entries
+
+
+def legend_below(panels: Iterable[Axes], columns: int = 4) -> None:
+    """Draw one legend for all panels of a figure, below them, in place of an earlier one."""
+    axes = list(panels)
+    entries, figure = legend_entries(axes), axes[0].figure
+    for earlier in [legend for legend in figure.legends if legend.get_gid() == BELOW_PANELS]:
+        earlier.remove()
+    if entries:
         look: dict[str, Any] = {"ncols": columns, "frameon": False, "fontsize": "small"}
-        texts = list(handles)
-        axes[0].figure.legend(handles.values(), texts, loc="outside lower center", **look)
+        place: dict[str, Any] = {"loc": "outside lower center", **look}
+        figure.legend(list(entries.values()), list(entries), **place).set_gid(BELOW_PANELS)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.errors import SweepError
+from saleg.errors import SweepError, shown
 from saleg.plotting.docstrings import documented
 from saleg.plotting.kinds import UNSTABLE, draw_kind, kinds
 from saleg.plotting.labels import label, values
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels, ShownAxes
     from saleg.sweep.sobol_indices import Indices
 
 #: Figures of the panels, in order.
@@ -52,7 +53,7 @@ WIDE = 40.0
 
 
 @documented(axes=8)
-def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
+def panels(table: pd.DataFrame, x: str, ax: Any = None) -> Panels:
     """Draw stability, compression, performance and score along one input (Figures 67-82).
 
     Parameters
@@ -79,7 +80,7 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
 
 
 @documented(axes=8)
-def groups(table: pd.DataFrame, x: str, ax: Any = None) -> np.ndarray:
+def groups(table: pd.DataFrame, x: str, ax: Any = None) -> Panels:
     """Draw a cloud of designs over a dimensionless group, coloured by score (Figures 117-124).
 
     Unstable orbits are hollow.
@@ -150,7 +151,7 @@ def design_map(
 
 
 @documented()
-def indices(found: Indices, ax: Axes | None = None) -> Axes:
+def indices(found: Indices, ax: Axes | None = None) -> ShownAxes:
     """Draw Sobol' indices as bars with their intervals, the most important input on top.
 
     Parameters
@@ -192,7 +193,9 @@ def _check(table: pd.DataFrame, names: list[str]) -> None:
     units = table.attrs.get("units", {})
     for name in ["status", *names]:
         if name not in table:
-            raise SweepError(f"no column {name!r} to draw; there are {', '.join(map(str, table))}")
+            raise SweepError(
+                f"no column {shown(name)} to draw; there are {', '.join(map(str, table))}"
+            )
         if name != "status" and table[name].dtype.kind not in "fiu":
             raise SweepError(f"{name} holds no numbers to draw")
         if name not in units:

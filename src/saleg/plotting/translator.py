@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,11 +18,13 @@ from saleg.plotting.cycle import (
     NoCycle,
     draw_translator,
     figure_of_cycle,
+    finish_cycle,
     last_cycle,
     time_axis,
 )
 from saleg.plotting.docstrings import documented
 from saleg.plotting.labels import axis_label
+from saleg.plotting.overlay import placed
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
     FRICTION_COLOUR,
@@ -30,7 +33,6 @@ from saleg.plotting.style import (
     SPRING_COLOUR,
     TRANSLATOR_COLOUR,
     axes_or_new,
-    finish,
     from_zero,
     zero_lines,
 )
@@ -39,6 +41,7 @@ from saleg.simulation.readable import readable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.simulation.run import Run
 
 FORCE = readable("spring_force", "N", "force to the right")
@@ -46,29 +49,29 @@ EFFICIENCY = readable("efficiency", "-")
 
 
 @figure_of_cycle
-def velocity_position(cycle: Cycle, ax: Axes) -> Axes:
+def velocity_position(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw velocity [m/s] over position [mm] of the translator (Figure 36 of the thesis)."""
     zero_lines(ax, x=True, y=True)
     draw_translator(ax, cycle, POSITION, VELOCITY)
-    return finish(ax, cycle.titled("Velocity and position"), _at_centre(cycle))
+    return finish_cycle(ax, cycle, "Velocity and position", _at_centre(cycle))
 
 
 @figure_of_cycle
-def acceleration_velocity(cycle: Cycle, ax: Axes) -> Axes:
+def acceleration_velocity(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw acceleration [km/s^2] over velocity [m/s] (Figure 37 of the thesis)."""
     zero_lines(ax, x=True, y=True)
     draw_translator(ax, cycle, VELOCITY, ACCELERATION)
-    return finish(ax, cycle.titled("Acceleration and velocity"), _at_centre(cycle))
+    return finish_cycle(ax, cycle, "Acceleration and velocity", _at_centre(cycle))
 
 
 @figure_of_cycle
-def forces(cycle: Cycle, ax: Axes) -> Axes:
+def forces(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw the forces on the translator [kN], positive to the right, over time [ms].
 
     Pressure of the gas on either crown, springs, friction and alternator; their sum is mass times
     acceleration, drawn as inertia (Figure 93 of the thesis).
     """
-    history, engine = cycle.history, cycle.run.engine
+    history, engine, place = cycle.history, cycle.run.engine, cycle.place
     left, right = (math.pi * chamber.bore**2 / 4.0 for chamber in engine.chambers)
     time = cycle(TIME)
     zero_lines(ax, y=True)
@@ -85,34 +88,40 @@ def forces(cycle: Cycle, ax: Axes) -> Axes:
             (0, (5, 1.5)),
         ),
     ):
-        ax.plot(time, FORCE.of(force.to_numpy()), color=colour, linestyle=line, label=label)
+        look: dict[str, Any] = {"color": colour, "linestyle": place.line(line)}
+        ax.plot(time, FORCE.of(force.to_numpy()), label=label, **look)
+    if not place.alone:
+        ax.plot([], [], color="0.4", linestyle=place.line(), label=place.name)
     time_axis(ax, cycle)
     ax.set_ylabel(axis_label(FORCE))
-    return finish(ax, cycle.titled("Forces on the translator"), "below", columns=3)
+    return finish_cycle(ax, cycle, "Forces on the translator", "below", columns=3)
 
 
 @figure_of_cycle
-def power(cycle: Cycle, ax: Axes) -> Axes:
+def power(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     """Draw electrical power [kW] over time [ms], its mean and RMS (Figure 40 of the thesis)."""
     strokes, period = cycle.strokes, cycle.period
     mean = POWER.scale * float(strokes["electrical_energy"].sum()) / period
     rms = POWER.scale * math.sqrt(float(strokes["electrical_squared"].sum()) / period)
     instant = cycle(POWER)
-    ax.plot(cycle(TIME), instant, color=ALTERNATOR_COLOUR, linewidth=1.6, label="electrical power")
-    ax.axhline(mean, color=TRANSLATOR_COLOUR, linewidth=1.2, label=f"mean {mean:.4g} kW")
-    ax.axhline(
-        rms, color=TRANSLATOR_COLOUR, linewidth=1.2, linestyle="--", label=f"RMS {rms:.4g} kW"
-    )
-    if instant.min() >= 0.0 and instant.max() > 0.0:
+    colour, text = cycle.place.colour, cycle.place.text
+    look: dict[str, Any] = {"color": colour(TRANSLATOR_COLOUR), "linewidth": 1.2}
+    curve: dict[str, Any] = {"color": colour(ALTERNATOR_COLOUR), "linewidth": 1.6}
+    ax.plot(cycle(TIME), instant, label=cycle.place.name or "electrical power", **curve)
+    ax.axhline(mean, label=text(f"mean {mean:.4g} kW"), **look)
+    ax.axhline(rms, linestyle="--", label=text(f"RMS {rms:.4g} kW"), **look)
+    if ax.dataLim.ymin >= 0.0 and instant.max() > 0.0:
         from_zero(ax)
     zero_lines(ax, y=True)
     time_axis(ax, cycle)
     ax.set_ylabel(POWER.label)
-    return finish(ax, cycle.titled("Electrical power"), "below", columns=3)
+    return finish_cycle(ax, cycle, "Electrical power", "below", 3, column_per_run=True)
 
 
 @documented()
-def efficiency(run: Run, ax: Axes | None = None, *, cycles: int = 10) -> Axes:
+def efficiency(
+    run: Run, ax: Axes | None = None, *, label: str | None = None, cycles: int = 10
+) -> ShownAxes:
     """Draw the running efficiency [%] over time [ms] (Figure 40 of the thesis).
 
     The running efficiency is a cumulative one: electrical energy over the fuel energy of all fresh
@@ -137,16 +146,26 @@ def efficiency(run: Run, ax: Axes | None = None, *, cycles: int = 10) -> Axes:
     if spent <= 0.0:
         raise NoCycle("no efficiency to draw: the last full cycle had no fresh fuel")
     ax = axes_or_new(ax)
-    cycles = min(max(int(cycles), 1), len(run.cycles))
+    with placed(ax, run, label) as place:
+        return _draw_efficiency(ax, replace(cycle, place=place), cycles, spent)
+
+
+def _draw_efficiency(ax: ShownAxes, cycle: Cycle, cycles: int, spent: float) -> ShownAxes:
+    """Running efficiency over some cycles, and that of the last one with the fuel it spent [J]."""
+    cycles = min(max(int(cycles), 1), len(cycle.run.cycles))
     running = EFFICIENCY.of(_running_efficiency(cycle, cycles))
     mean = EFFICIENCY.of(float(cycle.strokes["electrical_energy"].sum())) / spent
-    label = f"running efficiency over {cycles} cycles" if cycles > 1 else "running efficiency"
-    ax.plot(cycle(TIME), running, color=ALTERNATOR_COLOUR, linewidth=1.6, label=label)
-    label = f"efficiency of the cycle {mean:.4g} %"
-    ax.axhline(mean, color=TRANSLATOR_COLOUR, linewidth=1.2, label=label)
+    colour, text = cycle.place.colour, cycle.place.text
+    over = f" over {cycles} cycles" if cycles > 1 else ""
+    words = cycle.place.name or f"running efficiency{over}"
+    look: dict[str, Any] = {"color": colour(ALTERNATOR_COLOUR), "linewidth": 1.6}
+    ax.plot(cycle(TIME), running, label=words, **look)
+    look = {"color": colour(TRANSLATOR_COLOUR), "linewidth": 1.2}
+    of_cycle = f"{mean:.4g} %" if cycle.place.name else f"efficiency of the cycle {mean:.4g} %"
+    ax.axhline(mean, label=text(of_cycle), **look)
     time_axis(ax, cycle)
     ax.set_ylabel(axis_label(EFFICIENCY))
-    return finish(ax, cycle.titled("Efficiency"), "below", columns=2)
+    return finish_cycle(ax, cycle, "Efficiency", "below", 2, column_per_run=True)
 
 
 def _at_centre(cycle: Cycle) -> str | None:

@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import Engine, check_engine
+from saleg.engine import Engine, check_engine, warn_of_unusual
+from saleg.errors import shown
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
 from saleg.quantities import as_float
@@ -60,13 +61,13 @@ def simulate(
         best; a multistep method loses its order at each of some hundred restarts a second and
         comes to about a hundred times its tolerance (LSODA), or a thousand (BDF).
     rtol : float
-        Relative tolerance; the absolute one of each component is this times its natural size.
+        Relative tolerance [-]; the absolute one of each component is this times its natural size.
     jitted : bool
         Compile the right-hand side; it is the same source.
     motored_pressure : bool
         Integrate the motored pressure as well.
     stall_stroke : float
-        End the run as stalled when a stroke is shorter than this share of the maximum stroke.
+        End the run as stalled when a stroke is shorter than this share of the maximum stroke [-].
 
     Returns
     -------
@@ -90,6 +91,7 @@ def simulate(
     True
     """
     check_engine(engine)
+    warn_of_unusual(engine)
     rtol, stall_stroke, duration = _checked(solver, rtol, stall_stroke, duration)
     check_flag("jitted", jitted)
     check_flag("motored_pressure", motored_pressure)
@@ -130,13 +132,17 @@ def _checked(solver: Any, *numbers: Any) -> list[float]:
     known = ("DOP853", "RK45", "RK23", "Radau", "LSODA", "BDF")
     made = isinstance(solver, type) and issubclass(solver, OdeSolver)
     if not made and not (isinstance(solver, str) and solver in known):
-        raise SettingsError(f"solver = {solver!r}: must be one of {', '.join(known)}, or a class")
+        raise SettingsError(
+            f"solver = {shown(solver)}: must be one of {', '.join(known)}, or a class"
+        )
     found = []
     limits = (("rtol", 1e-14, 1.0), ("stall_stroke", 0.0, 1.0), ("duration", 0.0, math.inf))
     for value, (name, low, high) in zip(numbers, limits, strict=True):
         number = as_float(value)
         if number is None or not low <= number < high:
-            raise SettingsError(f"{name} = {value!r}: must be a number >= {low:g} and < {high:g}")
+            raise SettingsError(
+                f"{name} = {shown(value)}: must be a number >= {low:g} and < {high:g}"
+            )
         found.append(number)
     return found
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import inspect
 import math
 import numbers
 from collections.abc import Callable
@@ -56,11 +57,12 @@ class _Asked:
             value = method(*shown)
         except Exception as error:
             raise Fault(f"{owner} fails: {type(error).__name__}: {error}") from error
-        wanted = _slot_method(self._law, name).__annotations__.get("return")
+        declared = _slot_method(self._law, name)
+        wanted = declared.__annotations__.get("return")
         if wanted == "float" and not isinstance(value, (numbers.Real, np.bool_)):
             raise Fault(f"{owner} returns {value!r}; it must return a number")
         if _is_finite(shown) and not _is_finite(value):
-            raise Fault(f"{owner} returns {value!r}{_at(shown)}")
+            raise Fault(f"{owner} returns {value!r}{_at(declared, shown)}")
         return value
 
 
@@ -124,12 +126,13 @@ def _slot_method(law: Law, name: str) -> Callable[..., Any]:
     return method
 
 
-def _at(shown: tuple[Any, ...]) -> str:
-    """Where a law was asked, in words: what it was shown last that has names, else the numbers."""
+def _at(method: Callable[..., Any], shown: tuple[Any, ...]) -> str:
+    """Where a law was asked, in words: the first of the numbers it was shown, by name."""
     texts = []
-    for item in shown:
+    names = list(inspect.signature(method).parameters)[1:]
+    for name, item in zip(names, shown, strict=True):
         if hasattr(item, "_asdict"):
-            texts += [f"{name} = {value:.6g}" for name, value in item._asdict().items()]
+            texts += [f"{inner} = {value:.6g}" for inner, value in item._asdict().items()]
         elif isinstance(item, numbers.Real):
-            texts.append(f"{item:.6g}")
+            texts.append(f"{name} = {item:.6g}")
     return f" at {', '.join(texts[:6])}" if texts else ""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from saleg.columns import Column
 from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.kernel.control import NEAREST
 
@@ -18,6 +19,27 @@ if TYPE_CHECKING:
 ADVERSE_POINTS = 2001
 #: Cycles whose changes of the compression ratio, each against the one before, are averaged.
 CR_CYCLES = 10
+
+
+def summed(strokes: np.ndarray) -> Any:
+    """Every quantity of some strokes, summed over them; over those of each of many runs.
+
+    Parameters
+    ----------
+    strokes : ndarray of STROKE_RECORD, shape (k,) or (n, k)
+
+    Returns
+    -------
+    ndarray of STROKE_RECORD, shape () or (n,)
+    """
+    length = strokes.dtype.itemsize // 8
+    numbers = strokes.view(np.float64).reshape(*strokes.shape, length)
+    return numbers.sum(axis=-2).view(strokes.dtype)[..., 0]
+
+
+def both(values: np.ndarray) -> Any:
+    """Sum of the values of both sides."""
+    return values[..., 0] + values[..., 1]
 
 
 class Timing(NamedTuple):
@@ -33,28 +55,52 @@ class Timing(NamedTuple):
         Time after dead centre at which half of the heat is released [s], negative before it.
     """
 
-    start: float
-    start_position: float
-    centre: float
+    start: Any
+    start_position: Any
+    centre: Any
 
 
 def timing(engine: Engine, strokes: np.ndarray) -> Timing:
-    """Combustion timing over the strokes of a cycle; NaN without combustion."""
-    found = []
-    for row, (side, chamber) in itertools.product(strokes, enumerate(engine.chambers)):
-        if row["ignition_time"][side] < 0.0 or not isinstance(chamber, CombustionChamber):
+    """Combustion timing over the strokes of a cycle, or of each of many; NaN without combustion."""
+    count = np.zeros(strokes.shape[:-1])
+    sums = np.zeros((3, *strokes.shape[:-1]))
+    burns = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
+    laws: list[Any] = [getattr(chamber, "heat_release", None) for chamber in engine.chambers]
+    halves = {id(law): half_burnt_of(law) for law in laws if law is not None}
+    for side, chamber in enumerate(engine.chambers):
+        if not burns[side]:
             continue
-        sign = 1.0 if side == 0 else -1.0
+        sign = 1.0 - 2.0 * side
+        ignition = strokes["ignition_time"][..., side]
         # What is lit at a dead centre, or after it, is lit in the stroke that leaves it.
-        leaves = sign * float(row["direction"]) > 0.0
-        dead_centre = float(row["t"]) - (float(row["duration"]) if leaves else 0.0)
-        before = dead_centre - float(row["ignition_time"][side])
-        height = chamber.half_stroke + sign * float(row["x_start" if leaves else "x_end"])
-        half = half_burnt(chamber.heat_release) * float(row["combustion_duration"][side])
-        found.append((before, float(row["ignition_height"][side]) - height, half - before))
-    if not found:
-        return Timing(math.nan, math.nan, math.nan)
-    return Timing(*(float(value) for value in np.mean(found, axis=0)))
+        leaves = sign * strokes["direction"] > 0.0
+        dead_centre = strokes["t"] - np.where(leaves, strokes["duration"], 0.0)
+        before = dead_centre - ignition
+        end = sign * np.where(leaves, strokes["x_start"], strokes["x_end"])
+        position = strokes["ignition_height"][..., side] - (of_strokes(chamber.half_stroke) + end)
+        half = of_strokes(halves[id(laws[side])])
+        centre = half * strokes["combustion_duration"][..., side] - before
+        fired = ignition >= 0.0
+        sums += np.where(fired, (before, position, centre), 0.0).sum(axis=-1)
+        count += fired.sum(axis=-1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return Timing(*(sums / count))
+
+
+def of_strokes(value: Any) -> Any:
+    """A number of an engine, or of each of many, beside the numbers of strokes."""
+    return np.asarray(value)[:, None] if np.ndim(value) else value
+
+
+def half_burnt_of(law: Any) -> Any:
+    """The same as :func:`half_burnt`, of a law of columns row by row."""
+    columns = {name: value for name, value in vars(law).items() if isinstance(value, Column)}
+    if not columns:
+        return half_burnt(law)
+    rows = list(zip(*(values.tolist() for values in columns.values()), strict=True))
+    laws = {row: replace(law, **dict(zip(columns, row, strict=True))) for row in rows}
+    halves = {row: half_burnt(one) for row, one in laws.items()}
+    return np.array([halves[row] for row in rows])
 
 
 def half_burnt(law: HeatRelease) -> float:
@@ -201,6 +247,12 @@ def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
     return greatest / least
 
 
+def closure(engine: Engine, cycle: np.ndarray) -> Any:
+    """Change of the left dead centre over a cycle, or each of many, in half strokes (Eq. 68)."""
+    change = np.abs(cycle["x_end"][..., -1] - cycle["x_start"][..., -2])
+    return change / (0.5 * engine.maximum_stroke)
+
+
 def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:
     """Repeatability of the last cycle: change against those before it, as the thesis measures it.
 
@@ -218,7 +270,6 @@ def repeatability(engine: Engine, strokes: np.ndarray) -> tuple[float, float]:
         Mean magnitude of the change of the compression ratio from cycle to cycle, over the last
         ten changes [-]; NaN for a single cycle.
     """
-    half = 0.5 * engine.maximum_stroke
-    stability = abs(float(strokes["x_end"][-1] - strokes["x_start"][-2])) / half
+    stability = float(closure(engine, strokes[-2:]))
     changes = np.abs(np.diff(cycle_compression_ratios(engine, strokes)))[-CR_CYCLES:]
     return stability, float(changes.mean()) if len(changes) else math.nan

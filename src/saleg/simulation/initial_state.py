@@ -10,18 +10,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.columns import log, sqrt
 from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
 from saleg.engine.start import Contents
 from saleg.errors import LawError, SalegError, StartError
 from saleg.kernel import layout
-from saleg.kernel.rhs import refresh, rhs
+from saleg.kernel.rhs import gas_of, rates_of_motion, refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
 from saleg.simulation.faulty_law import Fault, asked
 
 if TYPE_CHECKING:
     from saleg.engine import Chamber, Engine
+
+
+#: What of the kernel sets up a run.
+KERNEL = SimpleNamespace(
+    refresh=refresh, ignite=ignite, gas_of=gas_of, rates_of_motion=rates_of_motion
+)
 
 
 @dataclass
@@ -99,7 +106,30 @@ def _fault_of(engine: Engine) -> str:
 
 
 def _prepare(engine: Engine) -> State:
-    """Fill plain objects, let the kernel's own functions work on them, and pack them at last."""
+    """Numbers a run begins with, packed as the kernel takes them."""
+    E, C, y = initial_numbers(engine, KERNEL)
+    rhs(engine, E, C, 0.0, y, [0.0] * layout.N_ALL, 0)  # asks all laws, so that one may fail here
+    return State(
+        np.array([tuple(vars(E).values())], layout.ENGINE_RECORD),
+        np.array([tuple(vars(c).values()) for c in C], layout.CHAMBER_RECORD),
+        np.array(y),
+        np.zeros(layout.N_PEAKS),
+    )
+
+
+def initial_numbers(engine: Engine, kernel: Any) -> tuple[Any, list[Any], list[Any]]:
+    """Fill plain objects and let the kernel's own functions work on them.
+
+    Parameters
+    ----------
+    engine : Engine
+    kernel : namespace
+        Its functions, as in :data:`KERNEL`.
+
+    Returns
+    -------
+    Engine, chambers and state vector.
+    """
     start = engine.start.initial(engine)
     E = SimpleNamespace(**dict.fromkeys(layout.ENGINE_RECORD.names or (), 0.0))
     C = [SimpleNamespace(**dict.fromkeys(layout.CHAMBER_RECORD.names or (), 0.0)) for _ in "lr"]
@@ -109,19 +139,24 @@ def _prepare(engine: Engine) -> State:
         _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
         _fill_contents(C[side], contents, y, side)
     _fill_engine(E, engine, start, C)
-    refresh(engine, E, C, y)
+    kernel.refresh(engine, E, C, y)
     for side, contents in enumerate((start.left, start.right)):
         if contents.burning and contents.fuel > 0.0:
-            ignite(engine, E, C, side, y, 0)
+            kernel.ignite(engine, E, C, side, y, 0)
+    E.direction = sign(y[layout.V]) or sign(_acceleration(engine, E, C, y, kernel))
+    return E, C, y
+
+
+def _acceleration(engine: Engine, E: Any, C: list[Any], y: list[Any], kernel: Any) -> Any:
+    """Acceleration of the translator [m/s^2]."""
+    gas_force = 0.0
+    for side, c in enumerate(C):
+        is_open = c.mode == layout.OPEN
+        p = c.intake_pressure if is_open else kernel.gas_of(E, C, side, y, 0).p
+        gas_force = gas_force + c.sign * c.area * p
     dy = [0.0] * layout.N_ALL
-    rhs(engine, E, C, 0.0, y, dy, 0)
-    E.direction = sign(y[layout.V]) or sign(dy[layout.V])
-    return State(
-        np.array([tuple(vars(E).values())], layout.ENGINE_RECORD),
-        np.array([tuple(vars(c).values()) for c in C], layout.CHAMBER_RECORD),
-        np.array(y),
-        np.zeros(layout.N_PEAKS),
-    )
+    kernel.rates_of_motion(engine, E, 0.0, y, dy, gas_force)
+    return dy[layout.V]
 
 
 def natural_period(engine: Engine) -> float:
@@ -132,14 +167,16 @@ def natural_period(engine: Engine) -> float:
 
 def sign(value: float) -> float:
     """-1, 0 or 1 [-]."""
-    return math.copysign(1.0, value) if value != 0.0 else 0.0
+    if value == 0.0:
+        return 0.0
+    return -1.0 if value < 0.0 else 1.0
 
 
 def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     length = 0.5 * engine.maximum_stroke
     E.mass = engine.translator.mass
     E.length_scale = length
-    E.speed_scale = length * math.sqrt(_stiffness(engine, length) / E.mass)
+    E.speed_scale = length * sqrt(_stiffness(engine, length) / E.mass)
     E.maximum_stroke = engine.maximum_stroke
     E.stroke = start.stroke
     E.mean_piston_speed = start.mean_piston_speed
@@ -205,7 +242,7 @@ def _stiffness(engine: Engine, length: float) -> float:
     for chamber in engine.chambers:
         area = math.pi * chamber.bore**2 / 4.0
         total += 1.35 * chamber.reference_state.pressure * area / chamber.half_stroke
-    return float(total)
+    return total
 
 
 def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
@@ -242,5 +279,5 @@ def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> Non
     if c.curve_exponent > 0.0:  # its charge is closed where it stands
         c.p_closing, c.V_closing = contents.pressure, c.area * clearance
         c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
-    theta = math.log(contents.pressure) + layout.G0 * math.log(clearance / c.half_stroke)
+    theta = log(contents.pressure) + layout.G0 * log(clearance / c.half_stroke)
     y[layout.THETA + side] = y[layout.MOTORED + side] = theta

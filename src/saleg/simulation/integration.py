@@ -37,15 +37,15 @@ def simulate(
     step : float, optional
         Fixed step [s]; 5 microseconds unless given. Giving one asks for ``method="fixed"``.
     rtol : float
-        Tolerance of the adaptive method, from 1e-14 to 1e-2, relative to stroke, natural speed
+        Tolerance of the adaptive method [-], from 1e-14 to 1e-2, relative to stroke, natural speed
         and pressure; a fixed step has none.
     history : int, optional
         Keep every n-th step in :attr:`Run.history`, events always; nothing unless given.
     motored_pressure : bool
         Integrate the motored pressure as well.
     stall_stroke : float
-        End the run as stalled when a stroke is shorter than this share of the maximum stroke;
-        0 never does.
+        End the run as stalled when a stroke is shorter than this share of the maximum stroke
+        [-]; 0 never does.
     keep_cycles : int, optional
         Keep the records of only about the last so many cycles, at least eleven; all unless given.
 

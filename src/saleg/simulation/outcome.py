@@ -10,6 +10,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.simulation.faulty_law import fault_near
+from saleg.simulation.indicators import both, summed
 from saleg.simulation.initial_state import State
 from saleg.simulation.performance import EnergyBalance
 from saleg.status import Status
@@ -91,7 +92,7 @@ def _stands_still(state: State) -> bool:
     return waited > STILL_PERIODS * period and coming < STILL * float(E["maximum_stroke"])
 
 
-def imbalance(before: Any, strokes: np.ndarray) -> float:
+def imbalance(before: Any, strokes: np.ndarray) -> Any:
     """Residual of an energy balance over its largest term, or over what moves to and fro.
 
     The latter is the work of the gas in a chamber in a stroke, or the energy in the springs: all
@@ -102,12 +103,13 @@ def imbalance(before: Any, strokes: np.ndarray) -> float:
     before : row of STROKE_RECORD
         The stroke before.
     strokes : ndarray of STROKE_RECORD
-        Consecutive strokes.
+        Consecutive strokes; of many runs each in a row, as :meth:`.EnergyBalance.between` has them.
     """
     balance = EnergyBalance.between(before, strokes)
-    moved = float(np.abs(strokes["gas_work"]).max()), float(np.abs(strokes["spring_energy"]).max())
-    largest = max(balance.largest_term, *moved)
-    return abs(balance.residual) / largest if largest > 0.0 else 0.0
+    moved = np.abs(strokes["gas_work"]).max(axis=(-2, -1))
+    held = np.abs(strokes["spring_energy"]).max(axis=-1)
+    largest = np.maximum(balance.largest_term, np.maximum(moved, held))
+    return abs(balance.residual) / np.maximum(largest, 1e-300)
 
 
 _STALL_HINT = "try a smaller load, more fuel, or another start"
@@ -118,11 +120,11 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     if len(strokes) < 2:
         return Status.COMPLETED, f"ran to t = {t:.6g} s, less than a cycle; try a longer run"
     cycle = strokes[-2:]
-    if is_dead(engine, cycle):
+    steady, how = settled(engine, strokes)
+    if is_dead(engine, cycle) and not (steady and delivers_power(cycle)):
         fired = np.flatnonzero(strokes["heat_released"].sum(axis=1) > 0.0)
         since = f"since t = {float(strokes['t'][fired[-1]]):.6g} s" if len(fired) else "at all"
         return Status.STALLED, f"ran to t = {t:.6g} s but has not fired {since}; {_STALL_HINT}"
-    steady, how = settled(engine, strokes)
     if is_idling(engine, cycle):
         weight = float(cycle["load_weight"][-1])
         why = (
@@ -137,17 +139,24 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     return Status.COMPLETED, f"ran to t = {t:.6g} s, {how}"
 
 
-def is_dead(engine: Engine, cycle: np.ndarray) -> bool:
-    """Whether an engine with cylinders neither fires in a cycle nor is motored."""
-    driven = float(cycle["alternator_work"].sum()) < 0.0
-    heat, work = float(cycle["heat_released"].sum()), float(np.abs(cycle["gas_work"]).max())
-    return engine.has_combustion and not driven and not heat > REMNANT * work
+def is_dead(engine: Engine, cycle: np.ndarray) -> Any:
+    """Whether an engine with cylinders neither fires in a cycle nor is motored; each of many."""
+    all_of = summed(cycle)
+    driven, heat = all_of["alternator_work"] < 0.0, both(all_of["heat_released"])
+    work = np.abs(cycle["gas_work"]).max(axis=(-2, -1))
+    return engine.has_combustion & ~driven & ~(heat > REMNANT * work)
 
 
-def is_idling(engine: Engine, cycle: np.ndarray) -> bool:
-    """Whether an engine fires in a cycle but delivers no power."""
-    heat = float(cycle["heat_released"].sum())
-    return heat > 0.0 and not float(cycle["electrical_energy"].sum()) > 1e-9 * heat
+def delivers_power(cycle: np.ndarray) -> bool:
+    """Whether a cycle delivers power; one that repeats may live on the heat of its walls."""
+    return float(cycle["electrical_energy"].sum()) > 1e-9 * float(np.abs(cycle["gas_work"]).max())
+
+
+def is_idling(engine: Engine, cycle: np.ndarray) -> Any:
+    """Whether an engine fires in a cycle but delivers no power; each of many."""
+    all_of = summed(cycle)
+    heat = both(all_of["heat_released"])
+    return (heat > 0.0) & ~(all_of["electrical_energy"] > 1e-9 * heat)
 
 
 def settled(engine: Engine, strokes: np.ndarray) -> tuple[bool, str]:

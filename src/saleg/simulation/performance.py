@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,8 +14,10 @@ import numpy as np
 from saleg.engine import CombustionChamber, Engine
 from saleg.simulation.indicators import (
     adverse_work,
+    both,
     compression_ratio,
     repeatability,
+    summed,
     timing,
 )
 
@@ -132,6 +136,11 @@ class Performance:
         """All figures by name."""
         return dataclasses.asdict(self)
 
+    def _repr_html_(self) -> str:
+        from saleg.display import performance_card
+
+        return performance_card(self)
+
     @classmethod
     def of_nothing(cls, engine: Engine) -> Performance:
         """Performance of an engine that completed no cycle or stalled: zeros and NaN."""
@@ -161,47 +170,75 @@ class Performance:
         history : ndarray of HISTORY_RECORD, optional
             The cycle's history.
         """
-        period = float(strokes["duration"].sum())
-        power = float(strokes["electrical_energy"].sum()) / period
-        ends = np.append(strokes["x_start"], strokes["x_end"])
-        fuel = float(strokes["fresh_fuel_energy"].sum())
-        cylinders = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
-        counted = [fires or not any(cylinders) for fires in cylinders]
-        work = float(strokes["gas_work"].sum())
-        burn = timing(engine, strokes)
+        figures = {name: float(value) for name, value in cycle_figures(engine, strokes).items()}
         stability, cr_change = repeatability(engine, run)
-        masses = strokes["charge_mass"][-1][cylinders] if any(cylinders) else np.array([nan])
         return cls(
-            stroke=float(np.abs(strokes["x_end"] - strokes["x_start"]).mean()),
-            compression_ratio=float(compression_ratio(engine, ends.min(), ends.max())),
-            frequency=1.0 / period,
-            power=power,
-            rms_power=math.sqrt(max(float(strokes["electrical_squared"].sum()), 0.0) / period),
-            efficiency=_share(power * period, fuel),
-            mean_alternator_force=float(strokes["alternator_impulse"].sum()) / period,
-            peak_pressure=float(strokes["peak_pressure"][:, counted].max()),
-            peak_acceleration=float(strokes["peak_acceleration"].max()),
-            peak_velocity=float(strokes["peak_velocity"].max()),
-            fuel_energy_per_cycle=fuel,
-            charge_mass=float(masses.mean()),
-            moving_mass=float(engine.translator.mass),
-            peak_temperature=float(strokes["peak_temperature"][:, counted].max()),
-            peak_pressure_rise=float(strokes["peak_pressure_rise"][:, counted].max()),
-            indicated_work=work,
-            indicated_efficiency=_share(work, fuel),
+            **figures,
             adverse_work=nan if history is None else adverse_work(engine, history),
-            start_of_combustion=burn.start,
-            start_of_combustion_position=burn.start_position,
-            burn_centre=burn.centre,
             stability=stability,
             cr_change=cr_change,
         )
 
 
-def _share(work: float, fuel: float) -> float:
+def cycle_figures(engine: Engine, strokes: np.ndarray) -> dict[str, Any]:
+    """Figures that follow from the two strokes of a cycle; of many cycles, each an array.
+
+    Parameters
+    ----------
+    engine : Engine
+        One, or many as an engine of columns.
+    strokes : ndarray of STROKE_RECORD, shape (2,) or (n, 2)
+        The cycle, with its peaks located.
+
+    Returns
+    -------
+    dict
+        All of :class:`Performance` but the adverse work and what is told of cycles before.
+    """
+    cycle = summed(strokes)
+    period, energy = cycle["duration"], cycle["electrical_energy"]
+    fuel, work = both(cycle["fresh_fuel_energy"]), both(cycle["gas_work"])
+    starts, ends = strokes["x_start"], strokes["x_end"]
+    low = np.minimum(starts, ends).min(axis=-1)
+    high = np.maximum(starts, ends).max(axis=-1)
+    burns = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
+    counted = burns if any(burns) else [True, True]
+    masses = strokes["charge_mass"][..., 1, burns] if any(burns) else np.array([nan])
+    burn = timing(engine, strokes)
+    with np.errstate(all="ignore"):
+        return {
+            "stroke": np.abs(ends - starts).sum(axis=-1) / 2.0,
+            "compression_ratio": compression_ratio(engine, low, high),
+            "frequency": 1.0 / period,
+            "power": energy / period,
+            "rms_power": np.sqrt(np.maximum(cycle["electrical_squared"], 0.0) / period),
+            "efficiency": _share(energy / period * period, fuel),
+            "mean_alternator_force": cycle["alternator_impulse"] / period,
+            "peak_pressure": _greatest(strokes["peak_pressure"][..., counted]),
+            "peak_acceleration": strokes["peak_acceleration"].max(axis=-1),
+            "peak_velocity": strokes["peak_velocity"].max(axis=-1),
+            "fuel_energy_per_cycle": fuel,
+            "charge_mass": masses.sum(axis=-1) / masses.shape[-1],
+            "moving_mass": engine.translator.mass,
+            "peak_temperature": _greatest(strokes["peak_temperature"][..., counted]),
+            "peak_pressure_rise": _greatest(strokes["peak_pressure_rise"][..., counted]),
+            "indicated_work": work,
+            "indicated_efficiency": _share(work, fuel),
+            "start_of_combustion": burn.start,
+            "start_of_combustion_position": burn.start_position,
+            "burn_centre": burn.centre,
+        }
+
+
+def _greatest(peaks: np.ndarray) -> Any:
+    """Greatest of the peaks of two strokes and all sides."""
+    return peaks.max(axis=(-2, -1))
+
+
+def _share(work: Any, fuel: Any) -> Any:
     """Work over the energy of the fuel; NaN without fuel, or with too little to divide by."""
-    share = work / fuel if fuel > 0.0 else math.nan
-    return share if math.isfinite(share) else math.nan
+    share = work / fuel
+    return np.where((fuel > 0.0) & np.isfinite(share), share, nan)
 
 
 #: Figures of a cycle by name, and their SI units.
@@ -233,24 +270,52 @@ def remarks_on(engine: Engine, performance: Performance, strokes: np.ndarray) ->
     list of str
         Empty for most engines, and where the figures are not known.
     """
-    ratio = performance.compression_ratio
-    speed = 2.0 * performance.stroke * performance.frequency
-    found = []
-    pressures = {"": performance.peak_pressure}
+    return [
+        text(value)
+        for beyond, value, text in _remarks(engine, vars(performance), strokes)
+        if beyond
+    ]
+
+
+def is_remarkable(engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray) -> Any:
+    """Whether there is a remark on each of many cycles; as :func:`cycle_figures` has them."""
+    return np.any([beyond for beyond, _, _ in _remarks(engine, figures, strokes)], axis=0)
+
+
+def _remarks(
+    engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray
+) -> Iterator[tuple[Any, Any, Callable[[Any], str]]]:
+    """Whether a figure is beyond its limit, the figure, and what says so."""
+    pressures = {"": figures["peak_pressure"]}
     for side, chamber in enumerate(engine.chambers):
         if engine.has_combustion and not isinstance(chamber, CombustionChamber):
-            pressures[" in the bounce chamber"] = strokes["peak_pressure"][:, side].max(initial=0.0)
+            peaks = strokes["peak_pressure"][..., side]
+            pressures[" in the bounce chamber"] = peaks.max(axis=-1, initial=0.0)
     for where, pressure in pressures.items():
-        if pressure > MAX_PRESSURE:
-            limit = MAX_PRESSURE / 1e5
-            found.append(f"peak pressure{where} {pressure / 1e5:.4g} bar (> {limit:g})")
-    if ratio > MAX_COMPRESSION_RATIO:
-        found.append(f"compression ratio {ratio:.4g} (> {MAX_COMPRESSION_RATIO:g})")
-    if speed > MAX_PISTON_SPEED:
-        found.append(f"mean piston speed {speed:.4g} m/s (> {MAX_PISTON_SPEED:g})")
-    if -strokes["heat_lost"].sum() > strokes["heat_released"].sum() > 0.0:
-        found.append("more heat from the walls than from the fuel: the efficiency counts fuel only")
-    return found
+        yield pressure > MAX_PRESSURE, pressure, partial(_of_pressure, where)
+    ratio = figures["compression_ratio"]
+    yield ratio > MAX_COMPRESSION_RATIO, ratio, _of_ratio
+    speed = 2.0 * figures["stroke"] * figures["frequency"]
+    yield speed > MAX_PISTON_SPEED, speed, _of_speed
+    cycle = summed(strokes)
+    released, gained = both(cycle["heat_released"]), -both(cycle["heat_lost"])
+    yield (gained > released) & (released > 0.0), gained, _of_walls
+
+
+def _of_pressure(where: str, pressure: float) -> str:
+    return f"peak pressure{where} {pressure / 1e5:.4g} bar (> {MAX_PRESSURE / 1e5:g})"
+
+
+def _of_ratio(ratio: float) -> str:
+    return f"compression ratio {ratio:.4g} (> {MAX_COMPRESSION_RATIO:g})"
+
+
+def _of_speed(speed: float) -> str:
+    return f"mean piston speed {speed:.4g} m/s (> {MAX_PISTON_SPEED:g})"
+
+
+def _of_walls(gained: float) -> str:
+    return "more heat from the walls than from the fuel: the efficiency counts fuel only"
 
 
 @dataclass(frozen=True)
@@ -263,27 +328,27 @@ class EnergyBalance:
     Attributes
     ----------
     fuel : float
-        Lower heating value of the fresh fuel.
+        Lower heating value of the fresh fuel [J].
     unburnt : float
-        Lower heating value of the fuel that left with the exhaust.
+        Lower heating value of the fuel that left with the exhaust [J].
     released : float
-        Heat released by combustion.
+        Heat released by combustion [J].
     heat_transfer : float
-        Heat to the walls.
+        Heat to the walls [J].
     exhaust : float
-        Internal energy given up when the ports opened, against that of the fresh charge.
+        Internal energy given up when the ports opened, against that of the fresh charge [J].
     port_work : float
-        Work of the intake pressure on the pistons while the ports are open.
+        Work of the intake pressure on the pistons while the ports are open [J].
     friction, alternator : float
-        Mechanical work taken by friction and alternator.
+        Mechanical work taken by friction and alternator [J].
     electrical : float
-        Electrical energy delivered.
+        Electrical energy delivered [J].
     stored : float
-        Increase of the energy in springs and gas (there is no kinetic energy at dead centres).
+        Increase of the energy in springs and gas [J] (there is no kinetic energy at dead centres).
     stored_fuel : float
-        Increase of the fuel in the chambers, by its lower heating value.
+        Increase of the fuel in the chambers, by its lower heating value [J].
     residual : float
-        ``released + port_work - heat_transfer - exhaust - friction - alternator - stored``.
+        ``released + port_work - heat_transfer - exhaust - friction - alternator - stored`` [J].
     """
 
     fuel: float
@@ -303,11 +368,16 @@ class EnergyBalance:
         """All terms by name [J]."""
         return dataclasses.asdict(self)
 
+    def _repr_html_(self) -> str:
+        from saleg.display import balance_card
+
+        return balance_card(self)
+
     @property
     def largest_term(self) -> float:
         """Magnitude of the largest term of the balance [J]."""
-        terms = (self.released, self.heat_transfer, self.exhaust, self.port_work)
-        return max(map(abs, (*terms, self.friction, self.alternator, self.stored)))
+        gas = (self.released, self.heat_transfer, self.exhaust, self.port_work)
+        return reduce(np.maximum, map(abs, (*gas, self.friction, self.alternator, self.stored)))
 
     @property
     def alternator_loss(self) -> float:
@@ -316,28 +386,32 @@ class EnergyBalance:
 
     @classmethod
     def between(cls, before: Any, strokes: np.ndarray) -> EnergyBalance:
-        """Balance over consecutive strokes, given the row of the stroke before them."""
-        last = strokes[-1]
-        held_before = before["spring_energy"] + before["internal_energy"].sum()
-        held_after = last["spring_energy"] + last["internal_energy"].sum()
+        """Balance over consecutive strokes, given the row of the stroke before them.
+
+        Of many runs each term is an array: rows of shape (n,) before strokes of shape (n, k).
+        """
+        last, all_of = strokes[..., -1], summed(strokes)
+        held_before, held_after = (
+            row["spring_energy"] + both(row["internal_energy"]) for row in (before, last)
+        )
         terms = {
-            "released": strokes["heat_released"].sum(),
-            "heat_transfer": strokes["heat_lost"].sum(),
-            "exhaust": strokes["exhaust_energy"].sum(),
-            "port_work": strokes["port_work"].sum(),
-            "friction": strokes["friction_work"].sum(),
-            "alternator": strokes["alternator_work"].sum(),
+            "released": both(all_of["heat_released"]),
+            "heat_transfer": both(all_of["heat_lost"]),
+            "exhaust": both(all_of["exhaust_energy"]),
+            "port_work": both(all_of["port_work"]),
+            "friction": all_of["friction_work"],
+            "alternator": all_of["alternator_work"],
             "stored": held_after - held_before,
         }
         gains = terms["released"] + terms["port_work"]
         uses = sum(
             terms[name] for name in ("heat_transfer", "exhaust", "friction", "alternator", "stored")
         )
-        return cls(
-            fuel=float(strokes["fresh_fuel_energy"].sum()),
-            unburnt=float(strokes["exhaust_fuel_energy"].sum()),
-            electrical=float(strokes["electrical_energy"].sum()),
-            stored_fuel=float(last["fuel_energy"].sum() - before["fuel_energy"].sum()),
-            residual=float(gains - uses),
-            **{name: float(value) for name, value in terms.items()},
-        )
+        terms["fuel"] = both(all_of["fresh_fuel_energy"])
+        terms["unburnt"] = both(all_of["exhaust_fuel_energy"])
+        terms["electrical"] = all_of["electrical_energy"]
+        terms["stored_fuel"] = both(last["fuel_energy"]) - both(before["fuel_energy"])
+        terms["residual"] = gains - uses
+        if strokes.ndim == 1:
+            terms = {name: float(value) for name, value in terms.items()}
+        return cls(**terms)

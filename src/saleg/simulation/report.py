@@ -12,18 +12,23 @@ if TYPE_CHECKING:
     from saleg.simulation.run import Run
 
 
-def describe_performance(performance: Performance) -> str:
-    """Performance as an aligned table."""
-    lines = []
+def figure_rows(performance: Performance) -> dict[str, tuple[str, str, str]]:
+    """Label, number and unit of the figures that are reported, as text, by the figure's name."""
+    rows = {}
     for name, (unit, label, digits, note) in FIGURES.items():
         if digits is None:
             continue
         shown = readable(name, unit)
         value = shown.of(getattr(performance, name))
         number = "-" if math.isnan(value) else f"{value:.{digits}f}"
-        read = "" if shown.unit == "-" else f"{shown.unit} {note}"
-        lines.append(f"  {label:<24} {number:>10} {read}".rstrip())
-    return "\n".join(lines)
+        rows[name] = label, number, "" if shown.unit == "-" else f"{shown.unit} {note}".rstrip()
+    return rows
+
+
+def describe_performance(performance: Performance) -> str:
+    """Performance as an aligned table."""
+    rows = figure_rows(performance).values()
+    return "\n".join(f"  {label:<24} {number:>10} {unit}".rstrip() for label, number, unit in rows)
 
 
 def describe_run(run: Run) -> str:

@@ -38,10 +38,14 @@ class Run:
         Time simulated [s].
     strokes : ndarray
         One record per stroke (see :mod:`saleg.kernel.layout`); read-only.
+    event_rows, history_rows : ndarray
+        Records of events and steps, read-only; what `events` and `history` show as tables.
     evaluations, steps : int
         Right-hand sides evaluated and steps taken, events included.
     settings : dict
         How the run was integrated.
+    replay : callable, optional
+        Integrates the last cycle again, for `orbit`.
     """
 
     engine: Engine
@@ -216,6 +220,14 @@ class Run:
         from saleg.export import load
 
         return load(path, laws=laws)
+
+    def __repr__(self) -> str:
+        return f"<Run of {self.engine.name!r}: {self.duration:.4g} s, {self.status}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import run_card
+
+        return run_card(self)
 
     def __str__(self) -> str:
         from saleg.simulation.report import describe_run

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 from saleg.kernel import tableaus
 from saleg.quantities import as_float, is_whole
 
@@ -28,7 +28,7 @@ def check_flag(name: str, value: Any) -> None:
     SettingsError
     """
     if not isinstance(value, (bool, np.bool_)):
-        raise SettingsError(f"{name} = {value!r}: must be True or False")
+        raise SettingsError(f"{name} = {shown(value)}: must be True or False")
 
 
 @dataclass(frozen=True)
@@ -81,28 +81,32 @@ class Settings:
     def _mistakes(self) -> list[str]:
         wrong = []
         if not isinstance(self.method, str) or self.method not in ("adaptive", "fixed"):
-            wrong.append(f"method = {self.method!r}: must be 'adaptive' or 'fixed'")
+            wrong.append(f"method = {shown(self.method)}: must be 'adaptive' or 'fixed'")
         if as_float(self.order) not in tableaus.FIXED_STEP:
             orders = ", ".join(str(number) for number in tableaus.FIXED_STEP)
-            wrong.append(f"order = {self.order!r}: must be one of {orders}")
+            wrong.append(f"order = {shown(self.order)}: must be one of {orders}")
         for name, value, low, high in (
             ("duration", self.duration, 0.0, math.inf),
             ("step", self.fixed_step, 1e-12, 1.0),
         ):
             number = as_float(value)
             if number is None or not low < number < high:
-                wrong.append(f"{name} = {value!r}: must be a number > {low:g} and < {high:g}")
+                wrong.append(f"{name} = {shown(value)}: must be a number > {low:g} and < {high:g}")
         rtol = as_float(self.rtol)
         if rtol is None or not 1e-14 <= rtol <= 1e-2:
-            wrong.append(f"rtol = {self.rtol!r}: must be a number from 1e-14 to 1e-2")
+            wrong.append(f"rtol = {shown(self.rtol)}: must be a number from 1e-14 to 1e-2")
         share = as_float(self.stall_stroke)
         if share is None or not 0.0 <= share < 1.0:
-            wrong.append(f"stall_stroke = {self.stall_stroke!r}: must be a number >= 0 and < 1")
+            wrong.append(
+                f"stall_stroke = {shown(self.stall_stroke)}: must be a number >= 0 and < 1"
+            )
         for name, count in (("history", self.history), ("keep_cycles", self.keep_cycles)):
             if count is not None and not is_whole(count, 1, 2**31 - 1):
-                wrong.append(f"{name} = {count!r}: must be a whole number >= 1, or None")
+                wrong.append(f"{name} = {shown(count)}: must be a whole number >= 1, or None")
         if not isinstance(self.motored_pressure, (bool, np.bool_)):
-            wrong.append(f"motored_pressure = {self.motored_pressure!r}: must be True or False")
+            wrong.append(
+                f"motored_pressure = {shown(self.motored_pressure)}: must be True or False"
+            )
         return wrong
 
     def described(self) -> dict[str, Any]:

@@ -94,7 +94,7 @@ HISTORY_UNITS = {
 
 def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
     """Table of the full cycles, one row each, left dead centre to left dead centre."""
-    import pandas as pd
+    from saleg.simulation.shown_table import Table
 
     out, back = full_cycles(strokes)
     travelled = np.abs(out["x_end"] - out["x_start"]) + np.abs(back["x_end"] - back["x_start"])
@@ -132,15 +132,14 @@ def cycle_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
         "alternator_work": out["alternator_work"] + back["alternator_work"],
         "electrical_energy": electrical,
     }
-    frame = pd.DataFrame(columns)
+    frame = Table.of(columns, CYCLE_UNITS)
     frame.index.name = "cycle"
-    frame.attrs["units"] = dict(CYCLE_UNITS)
     return frame
 
 
 def dead_centre_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
     """Table of the strokes, one row each, at the dead centre that ends it."""
-    import pandas as pd
+    from saleg.simulation.shown_table import Table
 
     length = np.abs(strokes["x_end"] - strokes["x_start"])
     columns = {
@@ -159,28 +158,23 @@ def dead_centre_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
         "peak_pressure_left": strokes["peak_pressure"][:, 0],
         "peak_pressure_right": strokes["peak_pressure"][:, 1],
     }
-    frame = pd.DataFrame(columns)
-    frame.attrs["units"] = dict(DEAD_CENTRE_UNITS)
-    return frame
+    return Table.of(columns, DEAD_CENTRE_UNITS)
 
 
 def event_table(rows: np.ndarray, names: tuple[str, ...]) -> pd.DataFrame:
     """Table of the events, one row each."""
-    import pandas as pd
+    from saleg.simulation.shown_table import Table
 
-    frame = pd.DataFrame(
-        {
-            "t": rows["t"],
-            "event": _named(rows["kind"], names),
-            "side": _named(rows["side"], ("left", "right")),
-            "x": rows["x"],
-            "v": rows["v"],
-            "pressure": rows["p"],
-            "temperature": rows["T"],
-        }
-    )
-    frame.attrs["units"] = dict(EVENT_UNITS)
-    return frame
+    columns = {
+        "t": rows["t"],
+        "event": _named(rows["kind"], names),
+        "side": _named(rows["side"], ("left", "right")),
+        "x": rows["x"],
+        "v": rows["v"],
+        "pressure": rows["p"],
+        "temperature": rows["T"],
+    }
+    return Table.of(columns, EVENT_UNITS)
 
 
 def _named(codes: np.ndarray, names: tuple[str, ...]) -> Any:
@@ -191,7 +185,7 @@ def _named(codes: np.ndarray, names: tuple[str, ...]) -> Any:
 
 def history_table(rows: np.ndarray) -> pd.DataFrame:
     """Table of the recorded instants, one row each; shares its memory with the records."""
-    import pandas as pd
+    from saleg.simulation.shown_table import Table
 
     names, units = [], {}
     for name in rows.dtype.names or ():
@@ -199,6 +193,4 @@ def history_table(rows: np.ndarray) -> pd.DataFrame:
         names += [name + side for side in sides]
         units.update({name + side: HISTORY_UNITS[name] for side in sides})
     values = rows.view(np.float64).reshape(len(rows), len(names))
-    frame = pd.DataFrame(values, columns=pd.Index(names), copy=False)
-    frame.attrs["units"] = units
-    return frame
+    return Table.of(values, units, columns=names, copy=False)

@@ -17,7 +17,7 @@ import numpy as np
 
 from saleg.engine import Engine, check_engine
 from saleg.engine.paths import unit_of
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.orbit import Z_CHAMBERS
 from saleg.quantities import as_float, is_number, is_whole
@@ -114,6 +114,8 @@ class Branch:
         """Table of the points, one row each: parameter, figures, stability; units in ``.attrs``."""
         import pandas as pd
 
+        from saleg.simulation.shown_table import Table
+
         rows = [
             {
                 self.path: point.value,
@@ -125,14 +127,9 @@ class Branch:
             for point in self.points
         ]
         frame = pd.DataFrame(rows).drop(columns="adverse_work")
-        frame.attrs["units"] = {
-            self.path: self.unit,
-            "stable": "-",
-            "kind": "-",
-            "largest_multiplier": "-",
-        }
-        frame.attrs["units"] |= {name: PERFORMANCE_UNITS[name] for name in frame.columns[4:]}
-        return frame
+        units = {self.path: self.unit, **dict.fromkeys(frame.columns[1:4], "-")}
+        units |= {name: PERFORMANCE_UNITS[name] for name in frame.columns[4:]}
+        return Table.of(frame, units)
 
     @property
     def folds(self) -> list[float]:
@@ -161,6 +158,15 @@ class Branch:
             value = a.value - x * (b.value - a.value) / (y - x) if x != y else a.value
             found.append((float(value), unstable.stability.kind))
         return found
+
+    def __repr__(self) -> str:
+        name, count = self.engine.name, len(self.points)
+        return f"<Branch of {name!r} along {self.path!r}: {count} steady states>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import branch_card
+
+        return branch_card(self)
 
     def plot(self, figure: str = "stroke", ax: Any = None) -> Any:
         """Bifurcation diagram: see :func:`saleg.plotting.branches.bifurcation`."""
@@ -194,7 +200,7 @@ def branch(
         Value to go towards, in its SI unit. The branch ends when it gets there, when it comes back
         through a fold to where it began, or when the orbit is lost.
     step : float, optional
-        Longest step in the parameter; a fortieth of the way unless given.
+        Longest step in the parameter, in its SI unit; a fortieth of the way unless given.
     max_points : int
         Points after which it ends.
 
@@ -220,12 +226,12 @@ def branch(
     check_engine(engine)
     start, end = engine.get(path), as_float(stop)
     if not is_number(start) or end is None or not math.isfinite(end) or end == start:
-        raise NoBranch(f"cannot follow '{path}' from {start!r} to {stop!r}")
+        raise NoBranch(f"cannot follow '{path}' from {shown(start)} to {shown(stop)}")
     longest = abs(end - start) / 40.0 if step is None else as_float(step)
     if longest is None or not 0.0 < longest < math.inf:
-        raise NoBranch(f"step = {step!r}: must be a number > 0")
+        raise NoBranch(f"step = {shown(step)}: must be a number > 0")
     if not is_whole(max_points, 2):
-        raise NoBranch(f"max_points = {max_points!r}: must be a whole number >= 2")
+        raise NoBranch(f"max_points = {shown(max_points)}: must be a whole number >= 2")
     engine.replace(**{path: end}).validate()
     if not repeats_itself(engine):
         raise NoBranch("a law depends on time or counts charges: the engine never repeats itself")

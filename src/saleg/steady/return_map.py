@@ -32,6 +32,7 @@ from saleg.kernel.orbit import (
     strokes_per_map,
     write_vector,
 )
+from saleg.kernel.orbits import Searches
 from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
 from saleg.laws import NoHeatTransfer, NoMisfires
 from saleg.laws.arguments import Charge, Gas, Motion
@@ -203,6 +204,10 @@ class ReturnMap:
         """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit)."""
         self.iterates = _iterates()
         return self._do(FIND, self.iterates, max_maps, tolerance)
+
+    def find_each(self, max_maps: int, tolerance: float, searches: Searches) -> None:
+        """Look for the fixed points of many engines of the same laws, one after the other."""
+        self.kernel.call("find_orbits", self.mapping, max_maps, tolerance, _iterates(), searches)
 
     def _do(
         self, task: int, iterates: Iterates, max_maps: int = 0, tolerance: float = 0.0
@@ -378,8 +383,7 @@ def is_symmetric(engine: Engine) -> bool:
     """Whether an engine is its own mirror image, laws of motion included."""
     if not engine.is_mirrored:
         return False
-    # A class says so for itself, not for those derived from it.
-    if all(vars(type(law)).get("mirrors") for law in _laws_of_motion(engine)):
+    if has_laws_that_mirror(engine):
         return True
     for x, v, direction, current in _probes(engine):
         try:
@@ -392,6 +396,12 @@ def is_symmetric(engine: Engine) -> bool:
         except Exception:  # a law that fails is named where the engine starts
             return False
     return True
+
+
+def has_laws_that_mirror(engine: Engine) -> bool:
+    """Whether all laws of motion are the same in the mirror whatever their numbers."""
+    # A class says so for itself, not for those derived from it.
+    return all(vars(type(law)).get("mirrors") for law in _laws_of_motion(engine))
 
 
 def _laws_of_motion(engine: Engine) -> tuple[Law, ...]:

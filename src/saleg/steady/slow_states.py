@@ -7,8 +7,11 @@ charge's burnt gas may have an m next to one.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from saleg.engine import Engine
 from saleg.kernel import layout
 from saleg.simulation.initial_state import State
 from saleg.simulation.outcome import imbalance
@@ -90,10 +93,13 @@ def find_settled(
 
 def is_sharp(return_map: ReturnMap, found: Search, rtol: float) -> bool:
     """Whether the steps were fine enough for the orbit just found, or can be no finer."""
-    if rtol <= FINEST:
-        return True
     off = imbalance(return_map.strokes[1], return_map.strokes[:2])
-    return found.slowness <= SLOWEST and off <= max(COARSE, rtol)
+    return bool(are_sharp(found.slowness, off, rtol))
+
+
+def are_sharp(slowness: Any, off: Any, rtol: float) -> Any:
+    """The same of many orbits, by the slowness of their searches and their imbalance of energy."""
+    return (rtol <= FINEST) | ((slowness <= SLOWEST) & (off <= max(COARSE, rtol)))
 
 
 def finer(rtol: float) -> float:
@@ -108,11 +114,21 @@ def is_near(return_map: ReturnMap, distance: float) -> bool:
     Aitken. The second residual is that of a whole cycle, for a map of half a cycle ``m (m + 1) a``:
     next to m = 1 that leaves ``3/2 a b / (2 a - b)``.
     """
-    iterates = return_map.iterates
-    first, second = iterates.residual, iterates.image - iterates.point
-    usual, share = (2.0, 1.5) if return_map.mirrored else (1.0, 1.0)
+    free = free_entries(return_map.engine)
+    return bool(are_near(return_map.iterates, return_map.mirrored, free, distance))
+
+
+def are_near(vectors: Any, mirrored: bool, free: list[int], distance: float) -> Any:
+    """The same of many searches, each a row of `residual`, `image` and `point` in `vectors`."""
+    first, second = vectors.residual, vectors.image - vectors.point
+    usual, share = (2.0, 1.5) if mirrored else (1.0, 1.0)
     far = share * np.abs(first * second) > distance * np.abs(usual * first - second)
-    return not far.any() or not set(np.flatnonzero(far)) - conserved_entries(return_map.engine)
+    return ~far[..., free].any(axis=-1)
+
+
+def free_entries(engine: Engine) -> list[int]:
+    """Entries of the vector that an orbit decides about: all but entropies that nothing changes."""
+    return sorted(set(range(layout.N_VECTOR)) - conserved_entries(engine))
 
 
 def newton_step(return_map: ReturnMap) -> np.ndarray | None:
@@ -126,7 +142,7 @@ def newton_step(return_map: ReturnMap) -> np.ndarray | None:
         matrix = np.eye(len(z)) - fine.jacobian(start, z)
     except NoReturn:
         return None
-    free = [n for n in range(len(z)) if n not in conserved_entries(return_map.engine)]
+    free = free_entries(return_map.engine)
     if not np.isfinite(matrix).all() or not np.isfinite(residual).all():
         return None
     jump = np.zeros(len(z))

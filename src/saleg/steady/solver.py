@@ -12,19 +12,26 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from saleg.compiler.compiled_engine import check_methods
 from saleg.engine import Chamber, CombustionChamber, Engine, check_engine, warn_of_unusual
 from saleg.engine.start import CompressedCharge, Start, standard_charge
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import natural_period, prepare
-from saleg.simulation.outcome import MAX_IMBALANCE, imbalance, is_dead, is_idling
+from saleg.simulation.outcome import (
+    MAX_IMBALANCE,
+    delivers_power,
+    imbalance,
+    is_dead,
+    is_idling,
+)
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
 from saleg.simulation.settings import Detail, Settings, SettingsError
@@ -33,6 +40,9 @@ from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
 from saleg.steady.slow_states import FINEST, find_settled, finer, is_sharp
 from saleg.steady.stability import Stability, stability
+
+if TYPE_CHECKING:
+    from saleg.plotting import Plots
 
 DEFAULT_TOLERANCE = 1e-6
 #: Maps after which iteration gives up.
@@ -104,6 +114,10 @@ class SteadyState:
     mirrored : bool
         Whether the second stroke is known to be the mirror image of the first: found by the map of
         half a cycle. A symmetric engine may also run on an orbit that is not.
+    replay : callable, optional
+        Integrates the cycle again, for `orbit`.
+    fallback : Run, optional
+        Simulation of an engine without a steady state.
     """
 
     engine: Engine
@@ -141,6 +155,21 @@ class SteadyState:
         return Performance.of_cycle(self.engine, self.strokes, self.strokes, history)
 
     @property
+    def plot(self) -> Plots:
+        """Figures of the cycle, as ``run.plot`` has them; ``dir`` lists them.
+
+        Raises
+        ------
+        NoSteadyState
+            If there is no cycle to draw.
+        """
+        from saleg.plotting import Plots
+
+        if self.orbit is None:
+            raise NoSteadyState(f"no steady state to draw: {self.message}")
+        return Plots(self.orbit)
+
+    @cached_property
     def quick_performance(self) -> Performance:
         """The same without what needs the history of the cycle: the adverse work is NaN."""
         if not len(self.strokes):
@@ -195,6 +224,14 @@ class SteadyState:
         """Whether small disturbances of the cycle die away; False where that is not known."""
         return self.found and self.has_multipliers and self.stability.stable
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.engine.name!r}: {self.status}, by {self.method}>"
+
+    def _repr_html_(self) -> str:
+        from saleg.display import steady_card
+
+        return steady_card(self)
+
     def __str__(self) -> str:
         from saleg.simulation.report import describe_performance, describe_remarks
 
@@ -225,7 +262,7 @@ def steady_state(
     ----------
     engine : Engine
     rtol : float
-        Tolerance of the integrator, and of the state after a return.
+        Tolerance of the integrator, and of the state after a return [-].
     max_maps : int
         Maps to try before the other methods take over.
     effort : Effort
@@ -252,7 +289,7 @@ def steady_state(
     """
     rtol = check_tolerance(rtol)
     if not is_whole(max_maps, 0, 2**31 - 1):
-        raise SettingsError(f"max_maps = {max_maps!r}: must be a whole number >= 0")
+        raise SettingsError(f"max_maps = {shown(max_maps)}: must be a whole number >= 0")
     check_effort(effort)
     check_engine(engine)
     warn_of_unusual(engine, frames=2)  # this one and what accepts earlier keywords
@@ -298,7 +335,7 @@ def check_tolerance(rtol: float) -> float:
     """
     number = as_float(rtol)
     if number is None or not 1e-13 <= number <= 1e-3:
-        raise SettingsError(f"rtol = {rtol!r}: must be a number from 1e-13 to 1e-3")
+        raise SettingsError(f"rtol = {shown(rtol)}: must be a number from 1e-13 to 1e-3")
     return number
 
 
@@ -311,7 +348,7 @@ def check_effort(effort: Effort) -> None:
     """
     if not isinstance(effort, Effort):
         names = " or ".join(f"saleg.Effort.{item.name}" for item in Effort)
-        raise SettingsError(f"effort = {effort!r}: must be {names}")
+        raise SettingsError(f"effort = {shown(effort)}: must be {names}")
 
 
 def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadyState:
@@ -331,13 +368,15 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
             continue  # unstable, or not as symmetric as it looks
         if not converged(found, rtol):
             continue
+        return_map.begin_on_the_left()
         if not is_sharp(return_map, found, rtol):
             sharper = return_map.finer(finer(rtol))
             again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
             spent += strokes
             evaluations += sharper.evaluations - return_map.evaluations
-            if converged(again, finer(rtol)):
-                return_map, found, rtol = sharper, again, finer(rtol)
+            if not converged(again, finer(rtol)):
+                continue
+            return_map, found, rtol = sharper, again, finer(rtol)
         return result_of(return_map, spent, evaluations, found.missed, "fixed point", rtol)
     if quick:
         return not_found(engine, spent, evaluations, "no orbit from the standard starts")
@@ -351,7 +390,7 @@ def starts(engine: Engine) -> Iterator[Start]:
     """
     left_first = engine.is_mirrored or fuel_energy(engine.left) >= fuel_energy(engine.right)
     side = -1.0 if left_first else 1.0
-    depth = float(getattr(engine.alternator, "target_stroke", 0.9))
+    depth = getattr(engine.alternator, "target_stroke", 0.9)
     yield CompressedCharge(position=side * min(max(depth, 0.5), 0.95), burning=1.0)
     usual = CompressedCharge()
     if engine.start not in (usual, replace(usual, position=-usual.position)):
@@ -363,7 +402,7 @@ def fuel_energy(chamber: Chamber) -> float:
     """Lower heating value of the fuel in a charge [J]; 0 for a chamber without fuel."""
     if not isinstance(chamber, CombustionChamber):
         return 0.0
-    return standard_charge(chamber)[1] * float(chamber.fuel.lower_heating_value)
+    return standard_charge(chamber)[1] * chamber.fuel.lower_heating_value
 
 
 def converged(found: Search, tolerance: float) -> bool:
@@ -379,12 +418,8 @@ def result_of(
     engine, strokes = return_map.engine, return_map.strokes[:2].copy()
     snapshots = Snapshots(*(part.copy() for part in return_map.snapshots))
     settings = Settings(duration=0.0, rtol=rtol, motored_pressure=engine.needs_motored_pressure)
-    status, what = _kind(engine, strokes, rtol)
-    cycle = "half-cycle" if return_map.mirrored else "full-cycle"
-    message = (
-        f"{what}fixed point of the {cycle} map, found in {spent} half cycles; "
-        f"a whole cycle misses its start by {residual:.1e}"
-    )
+    status, what = kind_of(engine, strokes, rtol)
+    message = what + fixed_point_message(return_map.mirrored, spent, residual)
     return SteadyState(
         engine=engine,
         status=status,
@@ -399,15 +434,31 @@ def result_of(
     )
 
 
-def _kind(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, str]:
+def fixed_point_message(mirrored: bool, spent: int, residual: float) -> str:
+    """How a fixed point was found."""
+    cycle = "half-cycle" if mirrored else "full-cycle"
+    return (
+        f"fixed point of the {cycle} map, found in {spent} half cycles; "
+        f"a whole cycle misses its start by {residual:.1e}"
+    )
+
+
+def max_imbalance(rtol: float) -> float:
+    """Imbalance of a cycle's energy beyond which a fixed point does not count."""
+    return min(max(ENERGY * rtol, MIN_IMBALANCE), MAX_IMBALANCE)
+
+
+def kind_of(engine: Engine, strokes: np.ndarray, rtol: float) -> tuple[Status, str]:
     """Status of a fixed point by what it delivers, and that as the beginning of a message."""
     off = imbalance(strokes[-1], strokes)
-    if off > min(max(ENERGY * rtol, MIN_IMBALANCE), MAX_IMBALANCE):
+    if off > max_imbalance(rtol):
         return Status.STEP_FAILURE, (
             f"the energy balance is off by {100.0 * off:.2g} % of its largest term; try a smaller "
             "rtol, or check that the energies of the laws belong to their forces: "
         )
     if is_dead(engine, strokes):
+        if delivers_power(strokes):
+            return Status.STEADY, "delivers power without firing: "
         return Status.STALLED, "swings without firing: "
     if is_idling(engine, strokes):
         return Status.IDLING, "fires but delivers no power: "

@@ -52,6 +52,11 @@ class Stability:
         """Show the multipliers, but let nobody write to them."""
         object.__setattr__(self, "multipliers", read_only(self.multipliers))
 
+    def _repr_html_(self) -> str:
+        from saleg.display import stability_card
+
+        return stability_card(self)
+
     @property
     def stable(self) -> bool:
         """Whether all disturbances die away."""

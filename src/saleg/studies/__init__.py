@@ -1,6 +1,7 @@
 """Studies: what changes with a numerical setting, or with one number or law of an engine."""
 
 from saleg.studies import sensitivity
+from saleg.studies.comparison import compare
 from saleg.studies.convergence import (
     DELAYED,
     TABLE_2_STEPS,
@@ -26,6 +27,7 @@ __all__ = [
     "WARM_UP",
     "StudyError",
     "beside_thesis",
+    "compare",
     "delay_study",
     "delayed",
     "sensitivity",

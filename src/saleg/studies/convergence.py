@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saleg.checks import POSITIVE, SERIES, Check, a, checked, each, whole
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine, check_engine
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.tableaus import FIXED_STEP
 from saleg.quantities import is_number
@@ -63,6 +64,12 @@ class StudyError(SalegError, ValueError):
     """A study that cannot be made, or not be set beside the thesis."""
 
 
+ORDERS = each(whole(1), "whole numbers")
+#: Of numbers that are checked one by one, where each is used.
+LIST = each(Check(lambda item: item, ""), "numbers")
+
+
+@checked(engine=a(Engine), steps=SERIES, duration=POSITIVE)
 def step_size_study(
     engine: Engine,
     steps: Iterable[float] = TABLE_2_STEPS,
@@ -99,6 +106,7 @@ def step_size_study(
     return _study(simulate, engine, ["step", "order"], cases)
 
 
+@checked(engine=a(Engine), orders=ORDERS, step=POSITIVE, duration=POSITIVE)
 def solver_study(
     engine: Engine,
     orders: Iterable[int] = tuple(FIXED_STEP),
@@ -128,6 +136,7 @@ def solver_study(
     return _study(simulate, engine, ["order", "step"], cases)
 
 
+@checked(engine=a(Engine), orders=ORDERS, steps=SERIES, tolerances=SERIES, duration=POSITIVE)
 def work_precision(
     engine: Engine,
     *,
@@ -180,6 +189,7 @@ def work_precision(
     return _described(table, engine)
 
 
+@checked(engine=a(Engine), times=SERIES)
 def stop_time_study(
     engine: Engine,
     times: Iterable[float] = TABLE_4_TIMES,
@@ -204,6 +214,7 @@ def stop_time_study(
     return _study(simulate, engine, ["stop_time"], cases)
 
 
+@checked(engine=a(Engine), tolerances=SERIES, duration=POSITIVE)
 def tolerance_study(
     engine: Engine, tolerances: Iterable[float], *, duration: float = 1.0
 ) -> pd.DataFrame:
@@ -226,6 +237,7 @@ def tolerance_study(
     return _study(simulate, engine, ["rtol"], [(given, duration, given) for given in settings])
 
 
+@checked(engine=a(Engine), steps=LIST, delays=LIST, duration=POSITIVE)
 def delay_study(
     engine: Engine,
     steps: Sequence[float] = (1e-6, 2e-6, 5e-6, 1e-5),
@@ -287,11 +299,11 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
     """
     for name, value in (("duration", duration), ("step", step), ("delay", delay)):
         if not is_number(value) or not math.isfinite(value):
-            raise SettingsError(f"{name} = {value!r}: must be a number")
+            raise SettingsError(f"{name} = {shown(value)}: must be a number")
     if not 0.0 < step < duration:
         raise SettingsError(f"step = {step!r}: must be > 0 and < duration ({duration:g} s)")
     if delay < 0 or delay != int(delay):
-        raise SettingsError(f"delay = {delay!r}: must be a number of whole steps")
+        raise SettingsError(f"delay = {shown(delay)}: must be a number of whole steps")
     check_engine(engine)
     (kernel, P, control), state = compiled_engine(engine, modules=DELAYED), prepare(engine)
     records = Records(False, None)

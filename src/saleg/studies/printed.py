@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from saleg.checks import FRAME, TEXT, checked
 from saleg.machines import thesis_base
 from saleg.studies.convergence import UNITS, StudyError
 
@@ -18,6 +19,7 @@ def is_of_base_case(study: pd.DataFrame) -> bool:
     return study.attrs.get("engine") == thesis_base().to_toml()
 
 
+@checked(table=FRAME, key=TEXT)
 def beside_thesis(
     table: pd.DataFrame, printed: Mapping[float, Mapping[str, float]], key: str
 ) -> pd.DataFrame:

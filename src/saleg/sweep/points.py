@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.errors import SweepError
+from saleg.errors import SweepError, shown
 from saleg.quantities import is_number, is_whole
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ Ranges = Mapping[str, Sequence[float]]
 MOST_POINTS = 10_000_000
 
 
-def grid(values: Mapping[str, Sequence[float]]) -> pd.DataFrame:
+def grid(values: Mapping[str, Sequence[float] | np.ndarray]) -> pd.DataFrame:
     """Every value of every input with every other; the last input runs fastest.
 
     Parameters
@@ -161,19 +161,19 @@ def refuse_too_many(count: int) -> None:
 def checked_seed(seed: int) -> int:
     """A seed, refused unless it always gives the same points."""
     if not is_whole(seed, 0):
-        raise SweepError(f"seed = {seed!r}: must be a whole number >= 0")
+        raise SweepError(f"seed = {shown(seed)}: must be a whole number >= 0")
     return int(seed)
 
 
 def _table(values: Any) -> Mapping[str, Any]:
     if not isinstance(values, Mapping):
-        raise SweepError(f"{values!r}: must be values by name, as {{'bore': [0.06, 0.07]}}")
+        raise SweepError(f"{shown(values)}: must be values by name, as {{'bore': [0.06, 0.07]}}")
     return values
 
 
 def _numbers(name: str, values: Sequence[float]) -> list[float]:
     if isinstance(values, str) or not np.iterable(values):
-        raise SweepError(f"{name} = {values!r}: must be a list of numbers")
+        raise SweepError(f"{name} = {shown(values)}: must be a list of numbers")
     held = list(values)
     wrong = [value for value in held if not is_number(value)]
     if wrong or not held:
@@ -183,6 +183,6 @@ def _numbers(name: str, values: Sequence[float]) -> list[float]:
 
 def _count(count: int) -> int:
     if not is_whole(count, 1):
-        raise SweepError(f"count = {count!r}: must be a whole number >= 1")
+        raise SweepError(f"count = {shown(count)}: must be a whole number >= 1")
     refuse_too_many(int(count))
     return int(count)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from saleg.batch.points import Evaluation
 from saleg.batch.table import CHUNK, Columns
+from saleg.checks import FUNCTION, checked
 from saleg.design.designs import Design
 from saleg.design.subjects import Subject, subject_of
 from saleg.engine import Engine
@@ -28,6 +29,7 @@ FORMAT = 1
 Report = Callable[[int, int], None]
 
 
+@checked(report=FUNCTION.optional)
 def run(
     points: pd.DataFrame,
     swept: Design | Engine | Subject | None = None,
@@ -35,7 +37,7 @@ def run(
     folder: str | Path | None = None,
     executor: Executor | None = None,
     workers: int | None = None,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
     rtol: float = DEFAULT_TOLERANCE,
     multipliers: bool = True,
     warm: bool = False,
@@ -60,10 +62,11 @@ def run(
         pool; threads of this process unless given. The results do not depend on it.
     workers : int, optional
         How many work at once; as many as there are processors unless given.
-    chunk : int
-        Points sent to a worker at a time.
+    chunk : int, optional
+        Points sent to a worker at a time; 32 to 128 unless given, so that no worker waits, and 32
+        with a folder or warm starts.
     rtol : float
-        Tolerance.
+        Tolerance of the integrator [-].
     multipliers : bool
         Differentiate each steady state: whether it is stable, and how it would not be.
     warm : bool
@@ -106,11 +109,13 @@ def run(
     check_flag("multipliers", multipliers)
     check_flag("warm", warm)
     solver = partial(subject.solver, rtol, multipliers, warm, effort)
+    if chunk is None and (warm or folder is not None):
+        chunk = CHUNK  # of these the results, and the names of the files, depend on it
     evaluation = Evaluation(points, subject, solver, chunk, executor, workers)
     if folder is None:
         return evaluation.table(dict(_work(evaluation, report)))
     settings = {"rtol": rtol, "multipliers": bool(multipliers), "warm": bool(warm)}
-    settings["chunk"] = int(chunk)
+    settings["chunk"] = int(evaluation.chunk)
     if effort is not Effort.THOROUGH:  # folders from before there was a choice stay what they are
         settings["effort"] = effort.value
     identity = {

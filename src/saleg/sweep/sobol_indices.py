@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.errors import SweepError
+from saleg.checks import FLAG, FRAME, TEXT, checked, each
+from saleg.errors import SweepError, shown
 from saleg.status import Status
 from saleg.sweep.points import Ranges, box, checked_seed, refuse_too_many
 
@@ -41,6 +42,11 @@ class Indices:
     figure: str
     table: pd.DataFrame = field(repr=False)
     variance: float
+
+    def _repr_html_(self) -> str:
+        from saleg.display import indices_card
+
+        return indices_card(self)
 
     def plot(self, ax: Any = None) -> Any:
         """Bars: see :func:`saleg.plotting.sweeps.indices`."""
@@ -83,7 +89,7 @@ def saltelli_points(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
         or count < 2
         or count & (count - 1)
     ):
-        raise SweepError(f"count = {count!r}: must be a power of two")
+        raise SweepError(f"count = {shown(count)}: must be a power of two")
     d = len(low)
     refuse_too_many(int(count) * (d + 2))
     both = qmc.Sobol(2 * d, seed=checked_seed(seed)).random(int(count))
@@ -97,6 +103,7 @@ def saltelli_points(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     return pd.DataFrame(low + unit * (high - low), columns=list(ranges))
 
 
+@checked(table=FRAME, figure=TEXT, inputs=each(TEXT, "names").optional, unstable=FLAG)
 def indices(
     table: pd.DataFrame,
     figure: str,

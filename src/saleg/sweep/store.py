@@ -1,7 +1,9 @@
 """The folder of a sweep: what has been done is there whole, whatever happens next.
 
 ``sweep.json`` says what the sweep is of; ``points.csv`` holds its inputs; every piece of work that
-is done is a file in ``parts``. At the end all of it is ``results.csv``, and the parts go.
+is done is a file in ``parts``. At the end all of it is ``results.csv``, and the parts go. What was
+written is known by its SHA-256, so that an altered table is no result: that of the inputs stands in
+``sweep.json``, that of the results in ``results.sha256``, as ``sha256sum --check`` reads it.
 """
 
 from __future__ import annotations
@@ -28,10 +30,11 @@ from saleg.files.tables import DamagedTable, labelled, read_table, write_table
 if TYPE_CHECKING:
     import pandas as pd
 
-DESCRIPTION, POINTS, RESULTS, PARTS, LOCK = (
+DESCRIPTION, POINTS, RESULTS, DIGEST, PARTS, LOCK = (
     "sweep.json",
     "points.csv",
     "results.csv",
+    "results.sha256",
     "parts",
     ".lock",
 )
@@ -98,17 +101,25 @@ class Folder:
         path = self.path / DESCRIPTION
         if not path.exists():
             _write(self.path / POINTS, table_text(points))
-            _write(path, json.dumps({"version": begun_by, **identity}, indent=1) + "\n")
+            begun = {"version": begun_by, "points_sha256": _digest(table_text(points))}
+            _write(path, json.dumps(begun | identity, indent=1) + "\n")
             return
         known = {"format": FIRST_FORMAT, **read_description(self.path)}
         differing = [key for key in identity if known.get(key) != identity[key]]
-        if _read(self.path / POINTS) != table_text(points):
+        asked, written = table_text(points), known.get("points_sha256")
+        if written is None:  # a folder made before the digest was kept
+            written = _digest(_read(self.path / POINTS))
+        if _digest(asked) != written:
             differing.append("points")
         if differing:
             raise SweepError(
                 f"{self.path} holds another sweep (other {', '.join(differing)}); name another "
                 "folder"
             )
+        if not (self.path / POINTS).exists():
+            _write(self.path / POINTS, asked)
+        elif _read(self.path / POINTS) != asked:
+            raise _damaged(self.path / POINTS, "it is not as it was written")
 
     @property
     def finished(self) -> bool:
@@ -121,7 +132,8 @@ class Folder:
         path = self._part(number)
         with _writing(path.parent):
             path.parent.mkdir(exist_ok=True)
-        _write(path, json.dumps({"sha256": _digest(plain), "columns": plain}) + "\n")
+        digest = _digest(json.dumps(plain))
+        _write(path, json.dumps({"sha256": digest, "columns": plain}) + "\n")
 
     def parts(self, total: int, chunk: int) -> dict[int, Columns]:
         """Pieces that are done, of all with so many points in chunks; a damaged one is not."""
@@ -134,7 +146,7 @@ class Folder:
         try:
             known = json.loads(_read(self._part(number)))
             columns = known["columns"]
-            if known["sha256"] == _digest(columns) and len(columns["status"]) == count:
+            if known["sha256"] == _digest(json.dumps(columns)) and len(columns["status"]) == count:
                 return {name: np.array(columns[name], dtype=kind_of(name)) for name in columns}
         except (ValueError, TypeError, KeyError, RecursionError):  # SweepErrors among them
             pass
@@ -142,7 +154,9 @@ class Folder:
 
     def finish(self, table: pd.DataFrame) -> None:
         """Write the whole table; the parts are no longer needed."""
-        _write(self.path / RESULTS, table_text(table))
+        text = table_text(table)
+        _write(self.path / DIGEST, f"{_digest(text)}  {RESULTS}\n")  # first: it says nothing alone
+        _write(self.path / RESULTS, text)
         self.clear()
 
     def clear(self) -> None:
@@ -161,6 +175,10 @@ class Folder:
         inputs, path = known.get("inputs"), self.path / RESULTS
         if not isinstance(inputs, dict) or not isinstance(known.get("count"), int):
             raise SweepError(f"{self.path / DESCRIPTION} is damaged: it lacks inputs or count")
+        if "points_sha256" in known or (self.path / DIGEST).exists():  # earlier ones have none
+            digest = _read(self.path / DIGEST).partition(" ")[0]
+            if digest != _digest(_read(path)):
+                raise _damaged(path, f"it is not as it was written, by its SHA-256 in {DIGEST}")
         table = read_frame(path)
         names = [str(name) for name in table]
         results = {"status"} if known["count"] else set()
@@ -175,8 +193,8 @@ class Folder:
         return self.path / PARTS / f"{number:07d}.json"
 
 
-def _digest(columns: Mapping[str, Any]) -> str:
-    return hashlib.sha256(json.dumps(columns).encode()).hexdigest()
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _damaged(path: Path, why: str) -> SweepError:
@@ -225,7 +243,7 @@ def read_frame(path: Path) -> pd.DataFrame:
     SweepError
         If it is none.
     """
-    import pandas as pd
+    from saleg.simulation.shown_table import Table
 
     is_folder(path, SweepError)  # refuses what would be waited for without end
     try:
@@ -239,9 +257,7 @@ def read_frame(path: Path) -> pd.DataFrame:
     data = {}
     for field, name in zip(rows.dtype.names or (), units, strict=True):
         data[name] = rows[field] == "True" if kind_of(name) is bool else rows[field]
-    frame = pd.DataFrame(data)
-    frame.attrs["units"] = units
-    return frame
+    return Table.of(data, units)
 
 
 def table_text(table: pd.DataFrame) -> str:

@@ -91,7 +91,16 @@ def comparison(run: Run) -> str | None:
 
 
 def is_published(engine: Engine) -> bool:
-    """Whether an engine is one of the thesis', with nothing changed."""
+    """Whether an engine is one of the thesis', with nothing changed.
+
+    Parameters
+    ----------
+    engine : Engine
+
+    Returns
+    -------
+    bool
+    """
     return engine.name in COLUMNS and engine == CATALOGUE[engine.name]()
 
 

@@ -37,10 +37,13 @@ from saleg.fundamental import (
     march,
 )
 from saleg.plotting import fundamental as plots
+from saleg.plotting.docstrings import documented
 from saleg.plotting.style import panels_or_new
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from saleg.plotting.figure import Panels, ShownAxes
 
 #: Midpoint pressure and heat of all figures [-]: about those of the base case.
 PRESSURE, HEAT = 0.17, 2.2
@@ -51,7 +54,16 @@ DEEP = -0.9
 
 
 def basic(load: Load) -> System:
-    """System of 2.3, with a load of one's choice."""
+    """System of 2.3, with a load of one's choice.
+
+    Parameters
+    ----------
+    load : Load
+
+    Returns
+    -------
+    System
+    """
     return System(pressure=PRESSURE, heat=HEAT, load=load)
 
 
@@ -130,61 +142,72 @@ def _combined(gas: Gas, start: float, share: float) -> History:
 # ---- drawings ----------------------------------------------------------------------------------
 
 
-def figure_9(ax: Axes | None = None) -> Axes:
+@documented()
+def figure_9(ax: Axes | None = None) -> ShownAxes:
     """Draw the runaway: velocity over position."""
     return plots.phase_portrait(excess(), ax)
 
 
-def figure_10(ax: Axes | None = None) -> Axes:
+@documented()
+def figure_10(ax: Axes | None = None) -> ShownAxes:
     """Draw the decay: velocity over position."""
     return plots.phase_portrait(deficit(), ax)
 
 
-def figure_11(ax: Axes | None = None) -> Axes:
+@documented()
+def figure_11(ax: Axes | None = None) -> ShownAxes:
     """Draw the rise to the equilibrium: velocity over position."""
     return plots.phase_portrait(from_below(), ax)
 
 
-def figure_12(ax: Axes | None = None) -> Axes:
+@documented()
+def figure_12(ax: Axes | None = None) -> ShownAxes:
     """Draw the fall to the equilibrium: velocity over position."""
     return plots.phase_portrait(from_above(), ax)
 
 
-def figure_13(ax: Axes | None = None) -> Axes:
+@documented()
+def figure_13(ax: Axes | None = None) -> ShownAxes:
     """Draw the equilibrium of Eq. 32: velocity over position."""
     return plots.phase_portrait(held(), ax)
 
 
-def figure_14(ax: Axes | None = None) -> Axes:
+@documented()
+def figure_14(ax: Axes | None = None) -> ShownAxes:
     """Draw the constant and the cosine work force over position."""
     return plots.load_profiles(profiles(), DEEP, ax)
 
 
-def figure_15(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
-    """Draw velocity and acceleration under either work force, on two axes."""
+@documented(axes=2)
+def figure_15(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
+    """Draw velocity and acceleration under either work force."""
     panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.compare_velocities(both_loads(), panels[0], "Velocity")
     plots.compare_accelerations(both_loads(), panels[1], "Acceleration")
     return panels
 
 
-def figure_16(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
-    """Draw velocity and acceleration with early combustion, on two axes."""
+@documented(axes=2)
+def figure_16(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
+    """Draw velocity and acceleration with early combustion."""
     return _motion(early(), ax)
 
 
-def figure_17(ax: Axes | None = None) -> Axes:
+@documented()
+def figure_17(ax: Axes | None = None) -> ShownAxes:
     """Draw the pressure loops without and with heat transfer, and their inversion."""
     return plots.pressure_loops(lossy(), ax)
 
 
-def figure_18(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
-    """Draw velocity and acceleration with all effects together, on two axes."""
+@documented(axes=2)
+def figure_18(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
+    """Draw velocity and acceleration with all effects together."""
     return _motion(combined(), ax)
 
 
-def figure_19(ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
-    """Draw how the compression ratio settles, and where the heat goes, on two axes."""
+@documented(axes=2)
+def figure_19(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
+    """Draw how the compression ratio settles, and where the heat goes."""
     panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.compression_ratios(combined(), panels[0])
     plots.energy_pie(cycle_balance(combined()), panels[1])
@@ -207,7 +230,7 @@ FIGURES: dict[int, Callable[..., Any]] = {
 }
 
 
-def _motion(history: History, ax: Any) -> np.ndarray:
+def _motion(history: History, ax: Any) -> Panels:
     panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.phase_portrait(history, panels[0])
     plots.acceleration_portrait(history, panels[1], "Acceleration")

@@ -20,6 +20,7 @@ from saleg.design import Design
 from saleg.machines import thesis_base
 from saleg.plotting import sensitivity as curves
 from saleg.plotting import studies as figures
+from saleg.plotting.docstrings import documented
 from saleg.studies import sensitivity
 from saleg.studies.sensitivity import Study
 from saleg.thesis.beside import comparison
@@ -37,7 +38,16 @@ def base_case() -> Run:
 
 
 def report(run: Run) -> str:
-    """Figures of the base case beside Tables 1, 2 and 5; empty for any other engine."""
+    """Figures of the base case beside Tables 1, 2 and 5; empty for any other engine.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    str
+    """
     return comparison(run) or ""
 
 
@@ -57,12 +67,30 @@ def stop_times() -> pd.DataFrame:
 
 
 def delays(steps: tuple[float, ...] = (1e-6, 5e-6, 1e-5)) -> pd.DataFrame:
-    """Efficiency with cylinder blocks that lag some steps behind: the error of Table 2."""
+    """Efficiency with cylinder blocks that lag some steps behind: the error of Table 2.
+
+    Parameters
+    ----------
+    steps : tuple of float
+        Fixed steps [s].
+
+    Returns
+    -------
+    DataFrame
+        As :func:`saleg.studies.delay_study` gives it.
+    """
     return studies.delay_study(thesis_base(), steps, [0, 1, 2])
 
 
+@documented()
 def draw_delays(late: pd.DataFrame, ax: Axes | None = None) -> Axes:
-    """Draw a study of :func:`delays` with the rows of Table 2 as rings."""
+    """Draw a study of :func:`delays` with the rows of Table 2 as rings.
+
+    Parameters
+    ----------
+    late : DataFrame
+        What :func:`delays` gives.
+    """
     return figures.delay(late, ax, printed=TABLE_2)
 
 

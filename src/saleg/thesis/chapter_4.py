@@ -18,14 +18,17 @@ import numpy as np
 
 from saleg import sweep
 from saleg.design import Design, evaluate_many
-from saleg.errors import nearest
+from saleg.errors import nearest, shown
 from saleg.plotting import sweeps
+from saleg.plotting.docstrings import documented
 from saleg.sweep import SweepError
 from saleg.thesis.tables import columns
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
+
+    from saleg.plotting.figure import Panels
 
 #: Ranges of the sweeps of Figures 67 to 82, two figures each, by input (SI). The text prints that
 #: of the retained exhaust gas; the others hold the borders of stability it names.
@@ -87,12 +90,21 @@ def sweep_along(name: str, count: int = 61) -> pd.DataFrame:
         If the chapter has no such sweep.
     """
     if name not in SWEEPS:
-        raise SweepError(f"no sweep of Chapter 4 along {name!r}{nearest(name, SWEEPS)}")
+        raise SweepError(f"no sweep of Chapter 4 along {shown(name)}{nearest(name, SWEEPS)}")
     return sweep.run(sweep.grid({name: np.linspace(*SWEEPS[name], count).tolist()}))
 
 
-def draw_sweep(table: pd.DataFrame, name: str, ax: Any = None) -> np.ndarray:
-    """Draw a table of :func:`sweep_along`, on eight axes handed in or on new ones."""
+@documented(axes=8)
+def draw_sweep(table: pd.DataFrame, name: str, ax: Any = None) -> Panels:
+    """Draw a table of :func:`sweep_along`.
+
+    Parameters
+    ----------
+    table : DataFrame
+        What :func:`sweep_along` gives.
+    name : str
+        The parameter it goes along.
+    """
     return sweeps.panels(table, name, ax)
 
 
@@ -194,7 +206,17 @@ def draw(beside: pd.DataFrame, ax: Axes | None = None) -> Axes:
 
 
 def report(beside: pd.DataFrame) -> str:
-    """Deviations as text, in percent, with the median magnitude of each figure below."""
+    """Deviations as text, in percent, with the median magnitude of each figure below.
+
+    Parameters
+    ----------
+    beside : DataFrame
+        What :func:`deviations` gives.
+
+    Returns
+    -------
+    str
+    """
     shown = (100.0 * beside).round(1)
     shown.loc["median magnitude"] = (100.0 * beside.abs().median()).round(1)
     return str(shown.to_string())

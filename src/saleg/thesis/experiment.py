@@ -17,7 +17,17 @@ if TYPE_CHECKING:
 
 
 class Line(NamedTuple):
-    """One line of a report: what, as seen here, and as the dissertation says, if it does."""
+    """One line of a report.
+
+    Attributes
+    ----------
+    what : str
+        What is compared.
+    here : str
+        As seen here.
+    dissertation : str
+        As the dissertation says, if it does.
+    """
 
     what: str
     here: str

@@ -307,7 +307,7 @@ def by_power(
     powers : iterable of float
         Powers between which designs are counted [W].
     efficiency : float
-        Least efficiency of a good design. The 40 % the text aims at are met by too few designs
+        Least efficiency of a good design [-]. The 40 % the text aims at are met by too few designs
         that nobody searched for: 19 of 12,000.
 
     Returns

@@ -12,7 +12,7 @@ import io
 from importlib.resources import files
 from typing import TYPE_CHECKING, TextIO
 
-from saleg.errors import SalegError
+from saleg.errors import SalegError, shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -159,7 +159,7 @@ class NoTable(SalegError, ValueError):
 def _opened(number: int) -> TextIO:
     """A file of the package, wherever it is installed, a zip file included."""
     if number not in FILES:
-        raise NoTable(f"no Table {number!r} here; there are {', '.join(map(str, FILES))}")
+        raise NoTable(f"no Table {shown(number)} here; there are {', '.join(map(str, FILES))}")
     file = files("saleg.thesis").joinpath("data", FILES[number])
     return io.TextIOWrapper(file.open("rb"), encoding="utf-8", newline="")
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from saleg.laws.arguments import Commands
 from saleg.laws.control.base import ActuatorLaw
+from saleg.laws.usual import COMMANDED_TEMPERATURE, LAG, SMALL_FORCE
 from saleg.quantities import quantity
 
 #: Number of each command, from 1 on, as :meth:`Actuators.refused` gives it.
@@ -48,16 +49,16 @@ class Actuators(ActuatorLaw):
     """
 
     most_load: float = quantity("-", default=10.0, low=0)
-    most_force: float = quantity("N", default=1e5, low=0)
+    most_force: float = quantity("N", default=1e5, low=0, usual=SMALL_FORCE)
     most_frequency: float = quantity("Hz", default=1e3, low=0)
     most_sweep: float = quantity("Hz/s", default=1e5, low=0)
     most_fuel: float = quantity("-", default=5.0, low=0)
-    coldest: float = quantity("K", default=150.0, low=1.0)
-    hottest: float = quantity("K", default=1000.0, low=1.0)
-    load_lag: float = quantity("s", default=0.0, low=0)
-    force_lag: float = quantity("s", default=0.0, low=0)
-    fuel_lag: float = quantity("s", default=0.0, low=0)
-    intake_lag: float = quantity("s", default=0.0, low=0)
+    coldest: float = quantity("K", default=150.0, low=1.0, usual=COMMANDED_TEMPERATURE)
+    hottest: float = quantity("K", default=1000.0, low=1.0, usual=COMMANDED_TEMPERATURE)
+    load_lag: float = quantity("s", default=0.0, low=0, usual=LAG)
+    force_lag: float = quantity("s", default=0.0, low=0, usual=LAG)
+    fuel_lag: float = quantity("s", default=0.0, low=0, usual=LAG)
+    intake_lag: float = quantity("s", default=0.0, low=0, usual=LAG)
     motor_efficiency: float = quantity("-", default=0.95, low=0, high=1, open_low=True)
 
     def refused(self, wanted: Commands) -> float:

@@ -9,6 +9,7 @@ from saleg.laws.arguments import Signals
 from saleg.laws.control.base import FuelControl
 from saleg.laws.interpolation import linear
 from saleg.laws.profiles import at_time
+from saleg.laws.usual import POWER, TIME
 from saleg.quantities import quantity, series
 
 
@@ -44,7 +45,7 @@ class FuelCut(FuelControl):
         How many strokes go without [-]; a large number for ever.
     """
 
-    at: float = quantity("s", default=1.5, low=0)
+    at: float = quantity("s", default=1.5, low=0, usual=TIME)
     strokes: float = quantity("-", default=1.0, low=0)
 
     def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
@@ -80,12 +81,16 @@ class FuelOnDemand(FuelControl):
     """
 
     gain: float = quantity("1/s", default=0.3, low=0)
-    powers: tuple[float, ...] = series("W", default=(1800.0, 3800.0), low=0, rising=True)
+    powers: tuple[float, ...] = series(
+        "W", default=(1800.0, 3800.0), low=0, rising=True, usual=POWER
+    )
     compression_ratios: tuple[float, ...] = series(
         "-", default=(12.0, 18.0), low=1, length="powers"
     )
-    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True)
-    demands: tuple[float, ...] = series("W", default=(3800.0, 1800.0), low=0, length="times")
+    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True, usual=TIME)
+    demands: tuple[float, ...] = series(
+        "W", default=(3800.0, 1800.0), low=0, length="times", usual=POWER
+    )
     lowest: float = quantity("-", default=0.1, low=0)
     highest: float = quantity("-", default=0.7, low=0)
 

@@ -9,6 +9,7 @@ from saleg.laws.arguments import Signals
 from saleg.laws.control.base import IntakeControl
 from saleg.laws.interpolation import linear
 from saleg.laws.profiles import at_time
+from saleg.laws.usual import COMMANDED_TEMPERATURE, POWER, TIME
 from saleg.quantities import quantity, series
 
 
@@ -45,14 +46,18 @@ class HeatedIntake(IntakeControl):
     """
 
     gain: float = quantity("K/s", default=100.0, low=0)
-    powers: tuple[float, ...] = series("W", default=(1800.0, 3800.0), low=0, rising=True)
+    powers: tuple[float, ...] = series(
+        "W", default=(1800.0, 3800.0), low=0, rising=True, usual=POWER
+    )
     compression_ratios: tuple[float, ...] = series(
         "-", default=(12.0, 18.0), low=1, length="powers"
     )
-    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True)
-    demands: tuple[float, ...] = series("W", default=(3800.0, 1800.0), low=0, length="times")
-    lowest: float = quantity("K", default=263.0, low=100.0)
-    highest: float = quantity("K", default=370.0, low=100.0)
+    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True, usual=TIME)
+    demands: tuple[float, ...] = series(
+        "W", default=(3800.0, 1800.0), low=0, length="times", usual=POWER
+    )
+    lowest: float = quantity("K", default=263.0, low=100.0, usual=COMMANDED_TEMPERATURE)
+    highest: float = quantity("K", default=370.0, low=100.0, usual=COMMANDED_TEMPERATURE)
 
     def temperature(self, memory: Any, signals: Signals) -> float:
         """Intake temperature [K]; holds its distance from the rated one, and the time."""

@@ -8,6 +8,7 @@ from typing import Any
 from saleg.laws.arguments import Signals
 from saleg.laws.control.base import LoadControl
 from saleg.laws.profiles import at_time
+from saleg.laws.usual import POWER, TIME
 from saleg.quantities import quantity, series
 
 
@@ -32,7 +33,7 @@ class ScaledLoad(LoadControl):
         Factor at those times [-], constant before and after.
     """
 
-    times: tuple[float, ...] = series("s", default=(2.0, 4.0), never_falling=True)
+    times: tuple[float, ...] = series("s", default=(2.0, 4.0), never_falling=True, usual=TIME)
     factors: tuple[float, ...] = series("-", default=(1.0, 2.0), low=0, length="times")
 
     def weight(self, memory: Any, signals: Signals) -> float:
@@ -71,9 +72,11 @@ class PowerDemand(LoadControl):
     share: float = quantity("-", default=0.5, low=0, high=1)
     proportional_gain: float = quantity("-", default=0.1, low=0)
     integral_gain: float = quantity("1/s", default=1.0, low=0)
-    rated_power: float = quantity("W", default=3800.0, low=0, open_low=True)
-    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True)
-    demands: tuple[float, ...] = series("W", default=(3800.0, 1800.0), low=0, length="times")
+    rated_power: float = quantity("W", default=3800.0, low=0, open_low=True, usual=POWER)
+    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True, usual=TIME)
+    demands: tuple[float, ...] = series(
+        "W", default=(3800.0, 1800.0), low=0, length="times", usual=POWER
+    )
     maximum_weight: float = quantity("-", default=1.1, low=0)
 
     def weight(self, memory: Any, signals: Signals) -> float:

@@ -8,6 +8,7 @@ from typing import Any
 
 from saleg.laws.arguments import Drive, Signals
 from saleg.laws.control.base import MotorControl
+from saleg.laws.usual import FREQUENCY, SMALL_FORCE
 from saleg.quantities import quantity
 
 
@@ -33,17 +34,17 @@ class ResonanceSearch(MotorControl):
         K_i [Hz/s].
     literal_phase : float
         0 to integrate the frequency to the motor's angle, as an inverter does; 1 for the force
-        ``sin(2 pi f t)`` with the present f, whose angle jumps with every change of f.
+        ``sin(2 pi f t)`` with the present f, whose angle jumps with every change of f [-].
     keeps_integral : float
         1 to go on from the integral reached when the motor comes back after the engine was fired,
-        0 to begin again at the base frequency.
+        0 to begin again at the base frequency [-].
     keeps_phase : float
         1 to go on with the angle the motor would have reached meanwhile, 0 to begin in phase with
-        the motion: at zero force, pushing along. Without effect on the literal phase.
+        the motion: at zero force, pushing along. Without effect on the literal phase [-].
     """
 
-    base_frequency: float = quantity("Hz", default=30.0, low=0, high=1e4)
-    amplitude: float = quantity("N", default=264.0, low=0)
+    base_frequency: float = quantity("Hz", default=30.0, low=0, high=1e4, usual=FREQUENCY)
+    amplitude: float = quantity("N", default=264.0, low=0, usual=SMALL_FORCE)
     target: float = quantity("-", default=19.0, low=1)
     proportional_gain: float = quantity("Hz", default=1.0, low=0)
     integral_gain: float = quantity("Hz/s", default=5.0, low=0)
@@ -85,8 +86,8 @@ class SteadyMotor(MotorControl):
         Frequency [Hz].
     """
 
-    amplitude: float = quantity("N", default=66.0, low=0)
-    frequency: float = quantity("Hz", default=35.0, low=0, high=1e4)
+    amplitude: float = quantity("N", default=66.0, low=0, usual=SMALL_FORCE)
+    frequency: float = quantity("Hz", default=35.0, low=0, high=1e4, usual=FREQUENCY)
 
     def drive(self, memory: Any, signals: Signals) -> Drive:
         """Force until the next dead centre."""

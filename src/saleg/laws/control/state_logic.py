@@ -21,7 +21,7 @@ class CompressionThreshold(StateLogic):
     hysteresis : float
         How far the compression ratio may fall below that before the motor comes back [-].
     latched : float
-        1 if the motor never comes back once the engine has been fired.
+        1 if the motor never comes back once the engine has been fired, else 0 [-].
     """
 
     threshold: float = quantity("-", default=12.0, low=1)

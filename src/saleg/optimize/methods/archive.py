@@ -11,7 +11,7 @@ import numpy as np
 from saleg.batch.table import TEXT
 from saleg.errors import Problem as Wrong
 from saleg.errors import nearest
-from saleg.optimize.methods.base import Method, Search, Start, mean_of
+from saleg.optimize.methods.base import MOST, Method, Search, Start, mean_of
 from saleg.optimize.problem import MISSES, Problem, Told
 from saleg.quantities import is_number, is_whole, quantity
 
@@ -20,7 +20,17 @@ if TYPE_CHECKING:
 
 
 class Axis(NamedTuple):
-    """An axis of a map: a figure, its range and how many cells that has."""
+    """An axis of a map: a figure, its range and how many cells that has.
+
+    Attributes
+    ----------
+    figure : str
+        Column of the table.
+    low, high : float
+        Ends of the range, in the SI unit of the figure.
+    cells : int
+        Number of cells.
+    """
 
     figure: str
     low: float
@@ -58,7 +68,7 @@ class Archive(Method):
         Random designs to begin with.
     step, along : float
         A child is an elite moved by a normal deviate of `step` in every parameter and of `along`
-        times the difference to another elite.
+        times the difference to another elite [-].
 
     References
     ----------
@@ -67,7 +77,7 @@ class Archive(Method):
     """
 
     axes: tuple[Axis, ...] = (STROKE_TO_BORE, FREQUENCY)
-    size: int = quantity("-", default=48, low=1, whole=True)
+    size: int = quantity("-", default=48, low=1, high=MOST, whole=True)
     sample: int = quantity("-", default=200, low=1, whole=True)
     step: float = quantity("-", default=0.02, low=0, open_low=True)
     along: float = quantity("-", default=0.2, low=0)
@@ -162,5 +172,5 @@ def wrong_axes(where: str, axes: Any, problem: Problem) -> Iterator[Wrong]:
             yield Wrong(place, axis.figure, "-", "is text; must be the name of a number")
         if not (is_number(axis.low) and is_number(axis.high) and axis.low < axis.high):
             yield Wrong(place, tuple(axis), "-", "must have low < high, both numbers")
-        if not is_whole(axis.cells, 1):
-            yield Wrong(place, axis.cells, "-", "cells must be a whole number >= 1")
+        if not is_whole(axis.cells, 1, MOST):
+            yield Wrong(place, axis.cells, "-", f"cells must be a whole number from 1 to {MOST}")

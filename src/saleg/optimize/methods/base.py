@@ -19,6 +19,9 @@ from saleg.optimize.fronts import first_front
 from saleg.optimize.problem import MISSES, Problem, Told
 from saleg.quantities import problems
 
+#: Designs of a population, or cells of an axis, at most; more would fill the memory.
+MOST = 1_000_000
+
 
 class Start(NamedTuple):
     """Where a search begins.

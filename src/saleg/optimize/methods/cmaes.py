@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from saleg.errors import Problem as Wrong
-from saleg.optimize.methods.base import Method, Search, Start, mean_of, plain
+from saleg.optimize.methods.base import MOST, Method, Search, Start, mean_of, plain
 from saleg.optimize.problem import Problem, Told
 from saleg.quantities import quantity
 
@@ -27,7 +27,7 @@ class CMAES(Method):
     size : int
         Designs of a generation.
     step : float
-        First standard deviation over the range of each parameter.
+        First standard deviation over the range of each parameter [-].
     sample : int
         Random designs to begin with where none are given.
 
@@ -38,7 +38,7 @@ class CMAES(Method):
     """
 
     package = "cma"
-    size: int = quantity("-", default=20, low=4, whole=True)
+    size: int = quantity("-", default=20, low=4, high=MOST, whole=True)
     step: float = quantity("-", default=0.25, low=0, high=1, open_low=True)
     sample: int = quantity("-", default=100, low=1, whole=True)
 

@@ -20,7 +20,7 @@ class CompassSearch(Method):
     Parameters
     ----------
     step, least_step : float
-        First and last step over the range of each parameter.
+        First and last step over the range of each parameter [-].
 
     References
     ----------

@@ -11,7 +11,7 @@ import numpy as np
 
 from saleg.errors import Problem as Wrong
 from saleg.errors import nearest
-from saleg.optimize.methods.base import Method, Search, Start, mean_of, plain
+from saleg.optimize.methods.base import MOST, Method, Search, Start, mean_of, plain
 from saleg.optimize.problem import Problem, Told
 from saleg.quantities import as_float, quantity
 
@@ -38,7 +38,7 @@ class DifferentialEvolution(Method):
     mutation : (float, float)
         Range of the factor of differences, drawn anew for every generation.
     recombination : float
-        Probability that a parameter is that of the mutant.
+        Probability that a parameter is that of the mutant [-].
 
     References
     ----------
@@ -46,7 +46,7 @@ class DifferentialEvolution(Method):
        https://doi.org/10.1023/A:1008202821328
     """
 
-    size: int = quantity("-", default=48, low=5, whole=True)
+    size: int = quantity("-", default=48, low=5, high=MOST, whole=True)
     strategy: str = "best1bin"
     mutation: tuple[float, float] = (0.5, 1.0)
     recombination: float = quantity("-", default=0.7, low=0, high=1)

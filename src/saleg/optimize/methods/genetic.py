@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from saleg.errors import Problem as Wrong
-from saleg.optimize.methods.base import Method, Search, Start, mean_of
+from saleg.optimize.methods.base import MOST, Method, Search, Start, mean_of
 from saleg.optimize.problem import Problem, Told
 from saleg.quantities import as_float, quantity
 
@@ -27,22 +27,22 @@ class GeneticAlgorithm(Method):
     size : int
         Individuals in a population.
     mutation, crossover : float
-        Probability that an individual has a child by mutation, and one by crossover.
+        Probability that an individual has a child by mutation, and one by crossover [-].
     generations : int
         Generations after the first population.
     stop : float
-        Fitness of the best beyond which the search ends; infinite for none.
+        Fitness of the best beyond which the search ends [-]; infinite for none.
     changed : float
-        Share of the genes a mutation changes (script).
+        Share of the genes a mutation changes (script) [-].
     deviation : float
-        Standard deviation of a changed gene over its range (script: 1/15), before it is clipped.
+        Standard deviation of a changed gene over its range [-] (script: 1/15), before clipping.
 
     Notes
     -----
     A start is drawn from the designs given, with replacement, or uniform in the box.
     """
 
-    size: int = quantity("-", default=500, low=2, whole=True)
+    size: int = quantity("-", default=500, low=2, high=MOST, whole=True)
     mutation: float = quantity("-", default=0.25, low=0, high=1)
     crossover: float = quantity("-", default=0.25, low=0, high=1)
     generations: int = quantity("-", default=70, low=1, whole=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.optimize.methods.base import Method, Search, Start, mean_of, plain
+from saleg.optimize.methods.base import MOST, Method, Search, Start, mean_of, plain
 from saleg.optimize.problem import Told
 from saleg.quantities import quantity
 
@@ -35,7 +35,7 @@ class NSGA2(Method):
 
     package = "pymoo"
     takes_fronts = True
-    size: int = quantity("-", default=100, low=4, whole=True)
+    size: int = quantity("-", default=100, low=4, high=MOST, whole=True)
 
     def begin(self, start: Start) -> Search:
         """Begin with a population."""

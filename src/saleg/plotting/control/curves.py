@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.control.moments import first_misfire, fuel_cuts, late_ignitions, motored_times
-from saleg.plotting.cycle import NoCycle, titled
+from saleg.plotting.cycle import NoCycle, title_of
 from saleg.plotting.labels import TIME, label, values
+from saleg.plotting.overlay import ALONE, Place
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
     COINCIDING,
@@ -26,6 +27,7 @@ from saleg.plotting.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
     from saleg.simulation.run import Run
 
 #: What is commanded, and holds from one dead centre to the next; all else is measured there.
@@ -54,17 +56,21 @@ def check(run: Run) -> None:
         raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
 
 
-def draw(ax: Axes, run: Run, name: str, **look: Any) -> None:
+def draw(ax: Axes, run: Run, name: str, place: Place = ALONE, **look: Any) -> None:
     """A column of the dead centres over time, on an axis that what runs away does not stretch."""
     table = run.dead_centres
     time, drawn = table["t"].to_numpy(), values(table, name)
     if name == "motor_frequency":
         drawn = np.where(table["motoring"], drawn, np.nan)
     line: dict[str, Any] = {"drawstyle": "steps-pre"} if name in COMMANDS else {}
-    chosen = {"color": CURVES.get(name, TRANSLATOR_COLOUR), "linewidth": 1.4, "label": f"_{name}"}
+    colour = place.colour(CURVES.get(name, TRANSLATOR_COLOUR))
+    chosen = {"color": colour, "linewidth": 1.4, "label": place.name or f"_{name}"}
     ax.plot(time, drawn, **line, **{**chosen, **look})
     ax.set_ylabel(label(table, name))
+    low, high = ax.get_ylim()
     _limit(ax, name, time, drawn)
+    if place.number:
+        ax.set_ylim(min(low, ax.get_ylim()[0]), max(high, ax.get_ylim()[1]))
 
 
 def draw_peaks(ax: Axes, run: Run, name: str, text: str) -> None:
@@ -127,18 +133,24 @@ def draw_moments(panels: Iterable[Axes], run: Run) -> None:
 
 
 def finished(
-    panels: np.ndarray, run: Run, title: str, columns: int = 1, legend_on: Axes | None = None
-) -> np.ndarray:
+    panels: Panels,
+    run: Run,
+    title: str,
+    columns: int = 1,
+    legend_on: Axes | None = None,
+    place: Place = ALONE,
+) -> Panels:
     """Titles, grids, time axis and legend of all panels."""
+    first = title_of(panels[0], run, title, place)
     for panel in panels:
         finish(panel, "", None)
         zero_lines(panel, y=True)
-        panel.set_xlim(0.0, run.duration)
+        panel.set_xlim(0.0, max(run.duration, panel.get_xlim()[1] * (place.number > 0)))
         panel.yaxis.set_label_coords(-0.11 if columns == 2 else -0.1, 0.5)
         spec = panel.get_subplotspec()
         if spec is None or spec.is_last_row():
             panel.set_xlabel(TIME)
-    panels[0].set_title(titled(run, title), fontsize="medium")
+    panels[0].set_title(first, fontsize="medium")
     if legend_on is not None:
         legend_on.legend(fontsize="small", loc="lower right", edgecolor="none")
     else:

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels, ShownAxes
+
 #: How runs that still change are called.
 UNSETTLED = "not settled: its last cycle"
 #: Shades where the ports open.
@@ -40,7 +42,7 @@ PORTS = {
 @documented(axes=2)
 def motored_amplitudes(
     table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None
-) -> np.ndarray:
+) -> Panels:
     """Draw relative stroke [%] and compression ratio [-] over the motor's amplitude (Figure 94).
 
     Where the ports open, on the way or when settled, is shaded.
@@ -54,9 +56,7 @@ def motored_amplitudes(
 
 
 @documented(axes=2)
-def motored_resonance(
-    table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None
-) -> np.ndarray:
+def motored_resonance(table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw relative stroke [%] and compression ratio [-] over the motor's frequency (Figure 95).
 
     Where the ports open, on the way or when settled, is shaded.
@@ -70,7 +70,7 @@ def motored_resonance(
 
 
 @documented(axes=2)
-def operating_map(known: OperatingMap, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def operating_map(known: OperatingMap, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw power [kW] and compression ratio [-] of steady states over a quantity (Fig. 101, 104).
 
     Parameters
@@ -93,9 +93,7 @@ def operating_map(known: OperatingMap, ax: Sequence[Axes] | np.ndarray | None = 
 
 
 @documented(axes=2)
-def operating_grid(
-    table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None
-) -> np.ndarray:
+def operating_grid(table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw maps of power [kW] and compression ratio [-] over both quantities (Figure 105).
 
     Only stable steady states are mapped; other points show what they are.
@@ -125,7 +123,7 @@ def operating_grid(
 
 
 @documented()
-def survival(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
+def survival(table: pd.DataFrame, ax: Axes | None = None) -> ShownAxes:
     """Draw the time to recover [s] over the strokes without fuel, with the motor and without it.
 
     Engines that stall have no such time: crosses on the axis count them.
@@ -165,7 +163,7 @@ def survival(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
 
 def _motored(
     table: pd.DataFrame, x: str, other: str, ax: Sequence[Axes] | np.ndarray | None
-) -> np.ndarray:
+) -> Panels:
     """Compression ratio and power of motored starts, as in Figures 94 and 95."""
     panels = panels_or_new(ax, (2, 1), 6.4, 5.4, sharex=True)
     ordered = table.sort_values(x)

@@ -19,6 +19,7 @@ from saleg.plotting.control.curves import (
 )
 from saleg.plotting.docstrings import documented
 from saleg.plotting.labels import TIME
+from saleg.plotting.overlay import placed
 from saleg.plotting.style import (
     RIGHT_COLOUR,
     TRANSLATOR_COLOUR,
@@ -33,6 +34,7 @@ from saleg.simulation.readable import readable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels, ShownAxes
     from saleg.simulation.run import Run
 
 #: Relative change below which a command counts as constant.
@@ -40,7 +42,7 @@ CONSTANT = 1e-3
 
 
 @documented(axes=6)
-def start_up(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def start_up(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw commands, and what the cylinders answer, during a start-up (Figure 97).
 
     Motor frequency [Hz], load weight [-] and equivalence ratio [-]; peak pressures [bar], peak
@@ -57,7 +59,7 @@ def start_up(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
 
 
 @documented(axes=2)
-def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw how compression ratio [-] and stroke [mm] grow until the engine is fired (Figure 98)."""
     check(run)
     panels = panels_or_new(ax, (2, 1), 6.8, 5.2, sharex=True)
@@ -70,7 +72,7 @@ def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndar
 
 
 @documented()
-def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
+def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> ShownAxes:
     """Draw the compression ratio [-] over time [s] for several base frequencies (Figure 99).
 
     Parameters
@@ -107,7 +109,7 @@ def start_ups(runs: Mapping[float, Run], ax: Axes | None = None) -> Axes:
 
 
 @documented(axes=5)
-def demand(run: Run, wanted: Demand, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def demand(run: Run, wanted: Demand, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw how an engine follows a demand (Figures 100, 102, 103).
 
     On the left power and demand [kW] and load weight [-], on the right compression ratio [-],
@@ -141,7 +143,7 @@ def duty_cycle(
     *,
     gas: bool = False,
     window: tuple[float, float] | None = None,
-) -> np.ndarray:
+) -> Panels:
     """Draw a duty cycle: start-up, operation and what disturbs it (Figures 106 to 108).
 
     Compression ratio [-], stroke [mm], frequency [Hz] and power [kW] over time [s], with the
@@ -159,7 +161,8 @@ def duty_cycle(
 
     Returns
     -------
-    ndarray of matplotlib.axes.Axes, shape (4,) or (6,)
+    Panels
+        Of four or six axes.
     """
     check(run)
     rows = 3 if gas else 2
@@ -180,21 +183,25 @@ def duty_cycle(
 
 
 @documented(axes=8)
-def controlled(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> np.ndarray:
+def controlled(
+    run: Run, ax: Sequence[Axes] | np.ndarray | None = None, *, label: str | None = None
+) -> Panels:
     """Draw what a run did over time [s], on the left, and what was commanded, on the right.
 
     Compression ratio [-], stroke [mm], frequency [Hz] and power [kW]; motor frequency [Hz], load
-    weight [-], equivalence ratio [-] and intake temperature [K].
+    weight [-], equivalence ratio [-] and intake temperature [K]. Of several runs on the same axes
+    the first shows when it was motored and what disturbed it.
     """
     check(run)
     panels = panels_or_new(ax, (4, 2), 10.0, 7.8, sharex=True)
     measured = ("compression_ratio", "stroke", "frequency", "power")
-    for panel, name in zip(panels[::2], measured, strict=True):
-        draw(panel, run, name)
-    for panel, name in zip(panels[1::2], COMMANDS, strict=True):
-        draw(panel, run, name)
-    draw_moments(panels, run)
-    return finished(panels, run, "Under control", columns=2)
+    with placed(panels[0], run, label) as place:
+        for panels_of, names in ((panels[::2], measured), (panels[1::2], COMMANDS)):
+            for panel, name in zip(panels_of, names, strict=True):
+                draw(panel, run, name, place)
+    if place.number == 0:
+        draw_moments(panels, run)
+    return finished(panels, run, "Under control", columns=2, place=place)
 
 
 def _varied(run: Run) -> str:
@@ -219,8 +226,10 @@ def _name_start_up(ax: Axes, run: Run, frequency: float, colour: Any) -> None:
     ax.annotate(text, (at, ratio), (-5, -2), ha="right", **look)
 
 
-def _demand_panels() -> np.ndarray:
+def _demand_panels() -> Panels:
     """Two panels on the left, the upper one higher, and three on the right."""
+    from saleg.plotting.figure import Panels
+
     figure = new_figure(10.0, 6.0)
     grid = figure.add_gridspec(6, 2)
     places = [grid[:4, 0], grid[4:, 0], grid[:2, 1], grid[2:4, 1], grid[4:, 1]]
@@ -229,4 +238,4 @@ def _demand_panels() -> np.ndarray:
         panels.append(figure.add_subplot(place, sharex=panels[0] if panels else None))
     for panel in (panels[0], panels[2], panels[3]):
         panel.tick_params(labelbottom=False)
-    return np.array(panels)
+    return Panels.of(panels)

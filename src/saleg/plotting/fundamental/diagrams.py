@@ -21,6 +21,8 @@ from saleg.plotting.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
+
 SHARES = {
     "work": ALTERNATOR_COLOUR,
     "rejected": "#8A8F98",
@@ -30,7 +32,9 @@ SHARES = {
 
 
 @documented()
-def load_profiles(profiles: Mapping[str, Profile], start: float, ax: Axes | None = None) -> Axes:
+def load_profiles(
+    profiles: Mapping[str, Profile], start: float, ax: Axes | None = None
+) -> ShownAxes:
     """Draw work forces over position, between mirrored dead centres (Figure 14).
 
     Parameters
@@ -53,7 +57,7 @@ def load_profiles(profiles: Mapping[str, Profile], start: float, ax: Axes | None
 
 
 @documented()
-def pressure_loops(histories: Mapping[str, History], ax: Axes | None = None) -> Axes:
+def pressure_loops(histories: Mapping[str, History], ax: Axes | None = None) -> ShownAxes:
     """Draw the pressure in the left chamber over its volume, and the loops' inversion (Figure 17).
 
     Parameters
@@ -80,7 +84,7 @@ def pressure_loops(histories: Mapping[str, History], ax: Axes | None = None) -> 
 
 
 @documented()
-def energy_pie(balance: EnergyBalance, ax: Axes | None = None) -> Axes:
+def energy_pie(balance: EnergyBalance, ax: Axes | None = None) -> ShownAxes:
     """Draw where the heat of a cycle goes [%] (Figure 19).
 
     Parameters

@@ -22,6 +22,8 @@ from saleg.plotting.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
+
 
 class Shown(NamedTuple):
     """A quantity as an axis shows it."""
@@ -43,7 +45,7 @@ TOGETHER: tuple[dict[str, Any], ...] = (
 
 
 @documented()
-def phase_portrait(history: History, ax: Axes | None = None, title: str = "") -> Axes:
+def phase_portrait(history: History, ax: Axes | None = None, title: str = "") -> ShownAxes:
     """Draw velocity over position, stroke by stroke from light to dark.
 
     Parameters
@@ -55,7 +57,7 @@ def phase_portrait(history: History, ax: Axes | None = None, title: str = "") ->
 
 
 @documented()
-def acceleration_portrait(history: History, ax: Axes | None = None, title: str = "") -> Axes:
+def acceleration_portrait(history: History, ax: Axes | None = None, title: str = "") -> ShownAxes:
     """Draw acceleration over position, stroke by stroke from light to dark.
 
     Parameters
@@ -69,7 +71,7 @@ def acceleration_portrait(history: History, ax: Axes | None = None, title: str =
 @documented()
 def compare_velocities(
     histories: Mapping[str, History], ax: Axes | None = None, title: str = ""
-) -> Axes:
+) -> ShownAxes:
     """Draw velocity over position in the last cycles of two histories.
 
     Parameters
@@ -82,7 +84,7 @@ def compare_velocities(
 @documented()
 def compare_accelerations(
     histories: Mapping[str, History], ax: Axes | None = None, title: str = ""
-) -> Axes:
+) -> ShownAxes:
     """Draw acceleration over position in the last cycles of two histories.
 
     Parameters
@@ -93,7 +95,7 @@ def compare_accelerations(
 
 
 @documented()
-def compression_ratios(history: History, ax: Axes | None = None, title: str = "") -> Axes:
+def compression_ratios(history: History, ax: Axes | None = None, title: str = "") -> ShownAxes:
     """Draw the compression ratio of every stroke.
 
     Parameters
@@ -111,7 +113,7 @@ def compression_ratios(history: History, ax: Axes | None = None, title: str = ""
     return finish(ax, title or f"Compression ratio: {history.outcome}", None)
 
 
-def _portrait(history: History, shown: Shown, ax: Axes | None, title: str) -> Axes:
+def _portrait(history: History, shown: Shown, ax: Axes | None, title: str) -> ShownAxes:
     ax = axes_or_new(ax)
     from matplotlib import colormaps
 
@@ -137,7 +139,9 @@ def _story(history: History) -> str:
     return f"{history.outcome}: compression ratio {first:.1f} to {last:.1f}".capitalize()
 
 
-def _compare(histories: Mapping[str, History], shown: Shown, ax: Axes | None, title: str) -> Axes:
+def _compare(
+    histories: Mapping[str, History], shown: Shown, ax: Axes | None, title: str
+) -> ShownAxes:
     ax = axes_or_new(ax)
     for (name, history), look in zip(histories.items(), TOGETHER, strict=False):
         x = [stroke.positions() for stroke in history.strokes[-2:]]

@@ -23,9 +23,11 @@ from saleg.plotting.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
+
 
 @documented()
-def cobweb(history: History, ax: Axes | None = None) -> Axes:
+def cobweb(history: History, ax: Axes | None = None) -> ShownAxes:
     """Draw the next dead centre over the last one, with the way an engine takes."""
     ax = axes_or_new(ax, 5.4, 5.0)
     system = cast(System, history.strokes[0].system)
@@ -49,7 +51,7 @@ def cobweb(history: History, ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def tolerance(gamma: float = 1.4, ax: Axes | None = None) -> Axes:
+def tolerance(gamma: float = 1.4, ax: Axes | None = None) -> ShownAxes:
     """Draw the work force an equilibrium asks for, the fold, and the tolerance band (Eq. 32).
 
     Parameters

@@ -30,6 +30,7 @@ from saleg.status import Status
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import ShownAxes
     from saleg.studies.sensitivity import Case, Study
 
 UNSTABLE = (0, (4, 2))
@@ -42,7 +43,7 @@ NEAR_DEAD_CENTRE = 0.4
 
 
 @documented()
-def pressure_volume(study: Study, ax: Axes | None = None) -> Axes:
+def pressure_volume(study: Study, ax: Axes | None = None) -> ShownAxes:
     """Draw pressure [bar] over volume [cm^3] of the left chamber, one curve per value.
 
     As Figures 46, 48, 49, 51, 52, 54 and 57. The axis shows the volumes near dead centre; widen it
@@ -63,7 +64,7 @@ def pressure_volume(study: Study, ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def velocity_position(study: Study, ax: Axes | None = None) -> Axes:
+def velocity_position(study: Study, ax: Axes | None = None) -> ShownAxes:
     """Draw velocity [m/s] over position [mm] of the translator, one curve per value.
 
     As Figures 45, 47, 53 and 59.
@@ -74,7 +75,7 @@ def velocity_position(study: Study, ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def pressure_time(study: Study, ax: Axes | None = None) -> Axes:
+def pressure_time(study: Study, ax: Axes | None = None) -> ShownAxes:
     """Draw pressure [bar] of the left chamber around its dead centre [ms], one curve per value.
 
     As the left half of Figure 44.
@@ -85,7 +86,7 @@ def pressure_time(study: Study, ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def heat_flow_time(study: Study, ax: Axes | None = None) -> Axes:
+def heat_flow_time(study: Study, ax: Axes | None = None) -> ShownAxes:
     """Draw the heat flow to the walls [kW] of the left chamber around its dead centre [ms].
 
     As the right half of Figure 44, one curve per value.
@@ -97,7 +98,7 @@ def heat_flow_time(study: Study, ax: Axes | None = None) -> Axes:
 
 
 @documented()
-def release_rates(study: Study, ax: Axes | None = None) -> Axes:
+def release_rates(study: Study, ax: Axes | None = None) -> ShownAxes:
     """Draw the burn rate [%/ms] over the time since the start of combustion [ms].
 
     One curve per value, of the left cylinder's last combustion, as Figure 56.
@@ -124,7 +125,7 @@ def release_rates(study: Study, ax: Axes | None = None) -> Axes:
 
 def _curves(
     study: Study, across: Quantity, up: Quantity, ax: Axes | None, side: str = "left"
-) -> Axes:
+) -> ShownAxes:
     """The last cycle of every run."""
     ax = axes_or_new(ax)
     for look, cycle in _drawn(study, ax):
@@ -134,7 +135,7 @@ def _curves(
     return ax
 
 
-def _around_dead_centre(study: Study, up: Quantity, ax: Axes | None) -> Axes:
+def _around_dead_centre(study: Study, up: Quantity, ax: Axes | None) -> ShownAxes:
     """A quantity of the left chamber from a quarter of a cycle before its dead centre on."""
     ax = axes_or_new(ax)
     longest = 0.0
@@ -189,7 +190,7 @@ def _label(study: Study, case: Case) -> str:
     return f"{value:.0f}" if 1e3 <= abs(value) < 1e6 else f"{value:.3g}"
 
 
-def _finish(ax: Axes, study: Study, title: str, legend: str) -> Axes:
+def _finish(ax: ShownAxes, study: Study, title: str, legend: str) -> ShownAxes:
     """Title and legend, with the quantity and its unit over the values."""
     finish(ax, title, legend, columns=2 if len(study.cases) > LONG_LEGEND else 1)
     box = ax.get_legend()

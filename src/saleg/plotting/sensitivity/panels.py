@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
+
 MARKERS = "osD^vP"
 #: What Figure 50 and Figure 55 show, and what Figure 58 does.
 TRENDS = ("compression_ratio", "efficiency", "frequency", "heat_transfer_share")
@@ -31,7 +33,7 @@ def trends(
     ax: Sequence[Axes] | np.ndarray | None = None,
     *,
     logarithmic: bool = False,
-) -> np.ndarray:
+) -> Panels:
     """Draw figures of a study over what was varied, a panel for each figure.
 
     With several parameters (as Figures 43 and 50) over their values relative to the engine's, with
@@ -51,7 +53,7 @@ def trends(
 
     Returns
     -------
-    ndarray of matplotlib.axes.Axes
+    Panels
 
     Raises
     ------
@@ -75,9 +77,7 @@ def trends(
 
 
 @documented(axes=2)
-def regulator_gains(
-    table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None
-) -> np.ndarray:
+def regulator_gains(table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw figures over those at the engine's own gain, against the gain (Figure 58).
 
     All gains to the left, the stable ones to the right.

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from saleg.checks import POSITIVE, a, checked
+from saleg.design import Design
+from saleg.engine import Engine
 from saleg.laws import ConstantFriction, Friction, ViscousFriction
 from saleg.studies.sensitivity.parameter_study import Study, study
 from saleg.studies.sensitivity.settle import settle
@@ -16,6 +19,7 @@ LAWS: Mapping[str, tuple[Friction, str]] = {
 }
 
 
+@checked(engine=a(Engine, Design), laws=a(Mapping), work=POSITIVE.optional)
 def friction_laws(
     engine: Subject,
     laws: Mapping[str, tuple[Friction, str]] = LAWS,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from saleg.checks import SERIES, a, checked
 from saleg.design import Design
 from saleg.engine import Engine
 from saleg.laws import DoubleWiebe, HeatRelease
@@ -57,6 +58,7 @@ def double_wiebe_early() -> DoubleWiebe:
     )
 
 
+@checked(engine=a(Engine, Design), durations=SERIES)
 def release_durations(engine: Engine | Design, durations: Iterable[float] = DURATIONS) -> Study:
     """Steady runs at several combustion durations, as Figures 53 to 55.
 
@@ -73,6 +75,7 @@ def release_durations(engine: Engine | Design, durations: Iterable[float] = DURA
     return study(engine, "heat_release.combustion_duration", durations)
 
 
+@checked(engine=a(Engine, Design), profiles=a(Mapping).optional)
 def release_profiles(
     engine: Engine | Design, profiles: Mapping[str, HeatRelease] | None = None
 ) -> Study:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from saleg.checks import POSITIVE, SERIES, a, checked
 from saleg.design import Design
 from saleg.engine import Engine
 from saleg.laws import Annand, Chang, HeatTransfer, Hohenberg, Woschni
-from saleg.studies.sensitivity.parameter_study import Study, study, vary_each
+from saleg.studies.sensitivity.parameter_study import PATHS, Study, study, vary_each
 from saleg.studies.sensitivity.settle import settle
 from saleg.studies.sensitivity.tuning import Subject, heat_transfer_share, tune
 
@@ -28,6 +29,7 @@ LAWS: Mapping[str, tuple[HeatTransfer, str]] = {
 }
 
 
+@checked(engine=a(Engine, Design), factors=SERIES, paths=PATHS)
 def hohenberg_parameters(
     engine: Engine | Design, factors: Iterable[float] = FACTORS, paths: Iterable[str] = HOHENBERG
 ) -> pd.DataFrame:
@@ -50,6 +52,7 @@ def hohenberg_parameters(
     return vary_each(engine, list(paths), factors)
 
 
+@checked(engine=a(Engine, Design), laws=a(Mapping), share=POSITIVE.optional)
 def heat_transfer_laws(
     engine: Subject,
     laws: Mapping[str, tuple[HeatTransfer, str]] = LAWS,

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from saleg.checks import SERIES, a, checked
 from saleg.design import Design
 from saleg.engine import Engine
 from saleg.laws import CFRIgnition, Ignition, RCMIgnitionPascal
-from saleg.studies.sensitivity.parameter_study import Study, study, vary_each
+from saleg.studies.sensitivity.parameter_study import PATHS, Study, study, vary_each
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -20,6 +21,7 @@ FACTORS = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6)
 LAWS: Mapping[str, Ignition] = {"CFR": CFRIgnition(), "RCM, p in Pa": RCMIgnitionPascal()}
 
 
+@checked(engine=a(Engine, Design), factors=SERIES, paths=PATHS)
 def cfr_parameters(
     engine: Engine | Design, factors: Iterable[float] = FACTORS, paths: Iterable[str] = CFR
 ) -> pd.DataFrame:
@@ -44,6 +46,7 @@ def cfr_parameters(
     return vary_each(engine, list(paths), factors)
 
 
+@checked(engine=a(Engine, Design), ratios=SERIES)
 def equivalence_ratios(
     engine: Engine | Design, ratios: Iterable[float] = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 ) -> Study:
@@ -62,6 +65,7 @@ def equivalence_ratios(
     return study(engine, "equivalence_ratio", ratios)
 
 
+@checked(engine=a(Engine, Design), laws=a(Mapping))
 def ignition_laws(engine: Engine | Design, laws: Mapping[str, Ignition] = LAWS) -> Study:
     """Steady runs under several ignition laws, as Figure 51.
 
@@ -78,6 +82,7 @@ def ignition_laws(engine: Engine | Design, laws: Mapping[str, Ignition] = LAWS) 
     return study(engine, "ignition", laws)
 
 
+@checked(engine=a(Engine, Design), rates=SERIES, law=a(Ignition).optional)
 def retained_gas(
     engine: Engine | Design,
     rates: Iterable[float] = (0.0, 0.1, 0.2, 0.3, 0.4),

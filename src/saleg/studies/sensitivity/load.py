@@ -6,6 +6,7 @@ import itertools
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from saleg.checks import NUMBER, SERIES, a, checked
 from saleg.design import Design
 from saleg.engine import Engine
 from saleg.errors import SalegError
@@ -20,6 +21,7 @@ GAINS = (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.5, 9.0, 10.0, 12.0, 13.0, 14.0, 16
 TARGETS = (0.70, 0.75, 0.80, 0.825, 0.85, 0.875, 0.90, 0.925, 0.95)
 
 
+@checked(engine=a(Engine, Design), gains=SERIES)
 def regulator_gains(engine: Engine | Design, gains: Iterable[float] = GAINS) -> pd.DataFrame:
     """Steady results against the gain of the stroke regulator (Eq. 59), as Figure 58.
 
@@ -37,6 +39,7 @@ def regulator_gains(engine: Engine | Design, gains: Iterable[float] = GAINS) -> 
     return vary(engine, "alternator.regulator_gain", gains)
 
 
+@checked(engine=a(Engine, Design), targets=SERIES)
 def target_strokes(engine: Engine | Design, targets: Iterable[float] = TARGETS) -> Study:
     """Steady runs at several target strokes of the regulator, as Figure 59.
 
@@ -53,6 +56,7 @@ def target_strokes(engine: Engine | Design, targets: Iterable[float] = TARGETS) 
     return study(engine, "alternator.target_stroke", targets)
 
 
+@checked(engine=a(Engine, Design), amplitude=NUMBER, periods=SERIES)
 def flux_ripples(
     engine: Engine | Design,
     amplitude: float = 0.1,

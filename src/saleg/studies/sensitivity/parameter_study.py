@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from saleg.checks import SERIES, TEXT, Check, a, checked, each
 from saleg.design import Design
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
@@ -25,6 +26,16 @@ if TYPE_CHECKING:
 Change = str | Callable[[Any], Mapping[str, Any]]
 #: Values, or values by the names they are to have in tables and figures.
 Values = Iterable[Any] | Mapping[Any, Any]
+#: What these and the paths of several numbers must be.
+CHANGE = Check(
+    lambda value: value if isinstance(value, str) or callable(value) else None,
+    "must be a path, or a function from a value to changes",
+)
+VALUES = Check(
+    lambda value: value if isinstance(value, Iterable) and not isinstance(value, bytes) else None,
+    "must be values in a list, or by name",
+)
+PATHS = each(TEXT, "paths")
 
 #: Columns of a study beside those of :class:`saleg.Performance`, with units.
 UNITS = {
@@ -88,6 +99,7 @@ class Study:
         return {case.value: case.run for case in self.cases}
 
 
+@checked(engine=a(Engine, Design), change=CHANGE, values=VALUES)
 def study(engine: Engine | Design, change: Change, values: Values) -> Study:
     """Settle an engine or a design at every value, and keep the runs to be drawn.
 
@@ -121,6 +133,7 @@ def study(engine: Engine | Design, change: Change, values: Values) -> Study:
     return Study(engine, *_named(engine, change), tuple(_cases(engine, change, values)))
 
 
+@checked(engine=a(Engine, Design), change=CHANGE, values=VALUES)
 def vary(engine: Engine | Design, change: Change, values: Values) -> pd.DataFrame:
     """Steady results of an engine or a design at every value of one of its numbers or laws.
 
@@ -160,6 +173,7 @@ def vary(engine: Engine | Design, change: Change, values: Values) -> pd.DataFram
     return _table(engine, *_named(engine, change), map(_row, _cases(engine, change, values)))
 
 
+@checked(engine=a(Engine, Design), paths=PATHS, factors=SERIES)
 def vary_each(
     engine: Engine | Design, paths: Sequence[str], factors: Iterable[float]
 ) -> pd.DataFrame:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from saleg.checks import a, checked
 from saleg.design import Design, InvalidDesign, solve
 from saleg.engine import Engine
 from saleg.errors import InvalidEngine, StartError
@@ -25,6 +26,7 @@ LOOP_TOLERANCE = 1e-8
 KEPT_CYCLES = 20
 
 
+@checked(subject=a(Engine, Design))
 def settle(subject: Engine | Design) -> Run:
     """Steady run of an engine, or of a design with the mass of its components.
 
@@ -88,8 +90,18 @@ def _designed(design: Design) -> Run:
     return replace(orbit, status=status, message=message, strokes=strokes, replay=lambda: orbit)
 
 
+@checked(run=a(Run))
 def is_stable(run: Run) -> bool:
-    """Whether a run reached a steady state in which the engine delivers power."""
+    """Whether a run reached a steady state in which the engine delivers power.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    bool
+    """
     return run.status is Status.STEADY
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TypeVar
 
+from saleg.checks import FUNCTION, NUMBER, TEXT, a, checked
 from saleg.design import Design
 from saleg.engine import Engine
 from saleg.errors import SalegError
@@ -24,13 +25,35 @@ class TuningError(SalegError, ArithmeticError):
     """A figure that cannot be tuned to what is wanted."""
 
 
+@checked(run=a(Run))
 def heat_transfer_share(run: Run) -> float:
-    """Heat lost to the walls in the last cycle over the fresh fuel energy [-]."""
+    """Heat lost to the walls in the last cycle over the fresh fuel energy [-].
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    float
+        NaN without fuel.
+    """
     return run.energy.heat_transfer / run.energy.fuel if _burns(run) and run.energy else math.nan
 
 
+@checked(run=a(Run))
 def friction_work(run: Run) -> float:
-    """Work of friction in the last cycle [J]."""
+    """Work of friction in the last cycle [J].
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    float
+        NaN without a full cycle.
+    """
     return run.energy.friction if run.energy else math.nan
 
 
@@ -38,6 +61,7 @@ def _burns(run: Run) -> bool:
     return run.energy is not None and run.energy.fuel > 0.0
 
 
+@checked(engine=a(Engine, Design), path=TEXT, figure=FUNCTION, wanted=NUMBER)
 def tune(engine: Subject, path: str, figure: Callable[[Run], float], wanted: float) -> Subject:
     """Find the engine or design whose steady state has a figure as wanted, by one of its numbers.
 
@@ -52,7 +76,7 @@ def tune(engine: Subject, path: str, figure: Callable[[Run], float], wanted: flo
     figure : callable
         From a :class:`saleg.Run` to the figure, such as :func:`heat_transfer_share`.
     wanted : float
-        What the figure is to be.
+        What the figure is to be, in its SI unit.
 
     Returns
     -------
@@ -86,6 +110,7 @@ def tune(engine: Subject, path: str, figure: Callable[[Run], float], wanted: flo
     raise TuningError(f"{path} does not bring the figure to {wanted:g}: still {found:g}")
 
 
+@checked(engine=a(Engine, Design))
 def fix_load(engine: Subject) -> Subject:
     """The engine or design with its load fixed where the stroke regulator settled.
 

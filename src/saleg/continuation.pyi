@@ -1,0 +1,1 @@
+from saleg.steady.continuation import *

@@ -1,0 +1,94 @@
+"""An engine as a section: cylinders to scale, rod, springs and alternator schematic."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from saleg.design import formulas
+from saleg.design.schematic import SIDES, dimensions
+from saleg.display.svg import GREEN, LEFT, RIGHT, YELLOW, path, picture, tag, text
+from saleg.engine import Engine
+
+#: Width of a drawing [px], thickness of walls [mm], turns of a spring.
+WIDTH, WALL, TURNS = 520.0, 4.0, 9
+_COLOURS = {"left": LEFT, "right": RIGHT}
+
+
+def drawing(engine: Engine) -> str:
+    """Section of an engine with the translator at its midpoint."""
+    sides = {side: dimensions(engine, side) for side in SIDES}
+    end = max(mm["head"] for mm in sides.values()) + 2.0 * WALL
+    reach = 0.5 * max(mm["mover_outer_diameter"] for mm in sides.values()) + 3.0 * WALL
+    scale = 0.5 * WIDTH / end
+    # In mm from the midpoint, y upward: the picture is symmetric, so its sign does not matter.
+    place = f"translate({0.5 * WIDTH:g} {reach * scale:.1f}) scale({scale:.4f})"
+    parts = [part for side, mm in sides.items() for part in _side(side, mm)]
+    parts += _mover(sides["left"])
+    names = [
+        text(0.5 * WIDTH, 2.0 * reach * scale + 12, "alternator", text_anchor="middle"),
+        text(2, 2.0 * reach * scale + 12, _name(engine, "left")),
+        text(WIDTH - 2, 2.0 * reach * scale + 12, _name(engine, "right"), text_anchor="end"),
+        *_rule(scale, 2.0 * reach * scale + 26),
+    ]
+    height = 2.0 * reach * scale + 34
+    section = tag("g", "".join(parts), transform=place)
+    return picture(WIDTH, height, f"section of {engine.name}", section, *names)
+
+
+def _side(side: str, mm: dict[str, float]) -> list[str]:
+    """Head, liner with its ports, bearing, spring, rod and piston of one side."""
+    sign, radius, rod = SIDES[side], 0.5 * mm["bore"], 0.5 * mm["rod_diameter"]
+    wall: dict[str, Any] = {"fill": "currentColor", "fill_opacity": 0.45}
+    parts = [_box(sign, mm["head"], mm["head"] + WALL, -radius - WALL, radius + WALL, **wall)]
+    ported = not math.isnan(mm["port"])
+    opens = mm["port"] if ported else mm["bearing"]
+    gap = min(0.06 * mm["head"], 3.0 * WALL) if ported else 0.0
+    for y in (radius, -radius - WALL):
+        parts.append(_box(sign, opens, mm["head"], y, y + WALL, **wall))
+        parts.append(_box(sign, min(mm["bearing"], opens - gap), opens - gap, y, y + WALL, **wall))
+    for y in (rod, -radius - WALL):
+        parts.append(
+            _box(sign, mm["bearing"], mm["bearing"] + WALL, y, y + radius + WALL - rod, **wall)
+        )
+    x = sign * np.linspace(mm["mover_end"], mm["bearing"], 2 * TURNS + 1)
+    outer = max(0.8 * radius, rod + 3.0)
+    coil = np.where(np.arange(len(x)) % 2, outer, rod + 1.5)
+    for way in (1.0, -1.0):
+        parts.append(path(zip(x, way * coil, strict=True), stroke=YELLOW, stroke_width=1.2))
+    foot = mm["crown"] - 1e3 * formulas.SKIRT_LENGTH
+    parts.append(_box(sign, 0.0, foot, -rod, rod, fill="currentColor", fill_opacity=0.6))
+    piston = _box(sign, foot, mm["crown"], -radius, radius, fill=_COLOURS[side])
+    return [*parts, tag("g", tag("title", f"{side} piston") + piston)]
+
+
+def _mover(mm: dict[str, float]) -> list[str]:
+    """Hollow mover of the alternator, cut open, with the web that carries it."""
+    outer, inner = 0.5 * mm["mover_outer_diameter"], 0.5 * mm["mover_inner_diameter"]
+    end = mm["mover_end"]
+    parts = [_box(1.0, -end, end, y, y + outer - inner, fill=GREEN) for y in (inner, -outer)]
+    return [*parts, _box(1.0, -0.5 * WALL, 0.5 * WALL, -inner, inner, fill=GREEN)]
+
+
+def _box(sign: float, start: float, end: float, low: float, high: float, **look: Any) -> str:
+    """A rectangle between two distances from the midpoint on one side [mm]."""
+    x = min(sign * start, sign * end)
+    return tag("rect", x=x, y=low, width=abs(end - start), height=high - low, **look)
+
+
+def _name(engine: Engine, side: str) -> str:
+    kind = type(getattr(engine, side)).__name__
+    words = "".join(f" {sign.lower()}" if sign.isupper() else sign for sign in kind)
+    return f"{side}{words}"
+
+
+def _rule(scale: float, y: float) -> list[str]:
+    """A bar with its length, to read lengths by."""
+    length = next(
+        step for step in (500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 1.0) if step * scale < 160.0
+    )
+    x = 0.5 * (WIDTH - length * scale)
+    bar = path([(x, y), (x + length * scale, y)], stroke="currentColor", stroke_width=2)
+    return [bar, text(x + length * scale + 6, y + 4, f"{length:g} mm")]

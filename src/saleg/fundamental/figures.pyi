@@ -1,0 +1,1 @@
+from saleg.thesis.chapter_2 import *

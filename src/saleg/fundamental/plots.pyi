@@ -1,0 +1,1 @@
+from saleg.plotting.fundamental import *

@@ -1,0 +1,1 @@
+from saleg.studies.sensitivity import *

@@ -1,0 +1,1 @@
+from saleg.engine.start import *
