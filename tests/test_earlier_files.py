@@ -11,16 +11,25 @@ from saleg.design import Design, MassModel
 
 EARLIER = ROOT / "tests" / "data" / "earlier"
 RUNS = sorted(path.name for path in EARLIER.glob("run_*"))
+RTOL = 1e-3  # they were simulated with
 
 
 @pytest.mark.parametrize("name", RUNS)
 def test_runs_load(name):
     run = saleg.Run.load(EARLIER / name)
     assert run.status in (saleg.Status.STEADY, saleg.Status.COMPLETED)
-    again = saleg.simulate(run.engine, 0.1, rtol=1e-3, motored_pressure="bounce" not in name)
-    assert run.performance.power == pytest.approx(again.performance.power, rel=1e-12)
+    again = saleg.simulate(run.engine, 0.1, rtol=RTOL, motored_pressure="bounce" not in name)
+    # At this tolerance another order of summing makes other steps.
+    assert run.performance.power == pytest.approx(again.performance.power, rel=RTOL)
     assert len(run.cycles) == len(again.cycles)
     assert (run.history is None or not len(run.history)) == ("bounce" in name)
+
+
+def test_the_same_run_loads_from_every_format():
+    powers = [
+        saleg.Run.load(EARLIER / name).performance.power for name in RUNS if "bounce" not in name
+    ]
+    assert powers == pytest.approx([powers[0]] * 5, rel=1e-12)
 
 
 def test_engine_files_load():

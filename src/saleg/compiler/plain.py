@@ -38,6 +38,7 @@ COLUMNS = (
     "kernel/layout.py",
     "kernel/state.py",
     "kernel/slots.py",
+    "kernel/needs.py",
     "kernel/rhs.py",
     "kernel/switch.py",
 )

@@ -240,13 +240,10 @@ def expected_event(E, C, y, dy):
         s -= (v + s * (a + 0.5 * s * jerk)) / (a + s * jerk)
         if least < s < earliest:
             first, earliest = DEAD_CENTRE, s
-    farthest = abs(earliest * (v + earliest * (0.5 * a + earliest * jerk / 6.0)))
     for event in (CORNER, PORT, PORT + 1):
         if v == 0.0 or not event_is_possible(E, C, event):
             continue
         way = place_of(E, C, event) - y[X]
-        if abs(way) > farthest:  # saves five divisions
-            continue
         s = way / v
         for _ in range(2):
             rest = s * (v + s * (0.5 * a + s * jerk / 6.0)) - way

@@ -98,7 +98,7 @@ def begin_on_the_left(mapping, iterates, found):
     read_vector(E, C, y, iterates.point)
     begin_stroke(E, C, y, run.peaks)
     next_return(mapping, True)
-    mirror(E, C, y, mapping.spare_chamber)
+    mirror(E, C, y, run.words.chambers)
     write_vector(E, C, y, iterates.point)
     cycle_from(mapping, iterates, found)
 

@@ -3,6 +3,8 @@
 The search for fixed points takes this module and no law, so that it is compiled once for all.
 """
 
+import numpy as np
+
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import N_ALL, N_PEAKS, N_STATE, X
 
@@ -30,12 +32,23 @@ def begin_stroke(E, C, y, peaks):
     E.t_dead_centre = E.t
 
 
+@inline
+def copy_row(destination, i, source, j):
+    """Copy row j of an array of records to row i of another, word by word.
+
+    As one value a record of this length takes numba a second to compile.
+    """
+    to, given = destination.view(np.int64), source.view(np.int64)
+    words = given.shape[0] // source.shape[0]
+    for n in range(words):
+        to[i * words + n] = given[j * words + n]
+
+
 @compiled
 def keep_snapshot(words, y, kept_y):
     """Remember the state at a left dead centre; the one before moves to second place.
 
-    `words` are the records as whole numbers of 8 bytes (:class:`~saleg.kernel.tuples.Words`): as
-    one value a record of this length takes numba a second to compile.
+    `words` are the records as whole numbers of 8 bytes (:class:`~saleg.kernel.tuples.Words`).
     """
     for n in range(words.engine.shape[1]):
         words.kept_engine[1, n] = words.kept_engine[0, n]
