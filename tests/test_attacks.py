@@ -193,16 +193,16 @@ def test_law_mistakes_name_the_law(base, law, error, hint):
 
 
 @dataclasses.dataclass(frozen=True)
-class Comprehending(LinearSprings):
+class Annotated(LinearSprings):
     def force(self, motion):
         rate: float = 1.0
-        parts = [rate * share * motion.x for share in (1.0, 2.0)]
+        parts = (rate * motion.x, rate * 2.0 * motion.x)
         return parts[0] + parts[1]
 
 
-def test_comprehensions_and_annotations_are_fine():
-    law = Comprehending()
-    text = "\n".join(methods_text(Comprehending, "force", "one", ENGINE_SLOTS["springs"]))
+def test_tuples_and_annotations_are_fine():
+    law = Annotated()
+    text = "\n".join(methods_text(Annotated, "force", "one", ENGINE_SLOTS["springs"]))
     names = {"inline": numba.njit(error_model="numpy")}
     exec(text, names)
     motion = saleg.laws.Motion(0.0, 2.0, 0.0, 1.0)

@@ -378,7 +378,6 @@ SLIPS = {
     "intake.pressure": (1.05, "105000 if given in bar"),
     "intake.temperature": (125.0, "398.15 if given in degC"),
     "fuel.lower_heating_value": (48.0, "4.8e+07 if given in MJ/kg"),
-    "wall_temperature": (130.0, "403.15 if given in degC"),
     "right.bore": (2.5, "0.0635 if given in inch"),
     "friction.coefficient": (12400.0, "usually 0.001 to 5000"),
     "fuel.air_fuel_ratio": (0.057, "usually 1 to 60"),

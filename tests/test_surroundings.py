@@ -139,7 +139,7 @@ def test_from_a_zip_file(base, tmp_path):
 
 def test_without_source_all_runs_as_python(base, monkeypatch):
     """As where only ``.pyc`` files are installed."""
-    compiled = saleg.simulate(base, 0.015, rtol=1e-4)
+    compiled = saleg.simulate(base, 0.015, rtol=1e-8)
 
     def gone(*_):
         raise FileNotFoundError
@@ -148,7 +148,7 @@ def test_without_source_all_runs_as_python(base, monkeypatch):
         changed.setattr("pkgutil.get_data", gone)
         plain._has_source.cache_clear()
         with pytest.warns(RuntimeWarning, match="without its source") as caught:
-            runs = [saleg.simulate(base, 0.015, rtol=1e-4) for _ in range(2)]
+            runs = [saleg.simulate(base, 0.015, rtol=1e-8) for _ in range(2)]
     plain._has_source.cache_clear()
     assert len(caught) == 1
     assert runs[0].strokes["x_end"] == pytest.approx(compiled.strokes["x_end"], rel=1e-9)

@@ -35,6 +35,7 @@ AIR_FUEL_RATIO = 1.0, 60.0
 MASS = 1e-4, 1e3
 PRESSURE = 1e4, 2e7
 TEMPERATURE = 200.0, 1500.0
+WALL = 100.0, 1500.0
 HEATING_VALUE = 1e6, 2e8
 
 
@@ -119,9 +120,7 @@ class Chamber(Quantities):
 
     bore: float = quantity("m", low=0, open_low=True, usual=BORE)
     half_stroke: float = quantity("m", low=0, open_low=True, usual=LENGTH)
-    wall_temperature: float = quantity(
-        "K", default=550.0, low=100.0, high=3000.0, usual=TEMPERATURE
-    )
+    wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0, usual=WALL)
     head_gap: float = quantity("m", default=1e-4, low=0, open_low=True, usual=GAP)
 
     @property
