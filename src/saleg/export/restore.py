@@ -47,9 +47,6 @@ def from_tables(description: Description, laws: Sequence[type] = ()) -> Run:
     ------
     WrongArguments
         If it is no description.
-
-    Raises
-    ------
     RunFileError
         Saying what is missing or strange.
     """
