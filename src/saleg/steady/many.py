@@ -18,7 +18,7 @@ from saleg.engine import BounceChamber, Engine
 from saleg.engine.columns import Rows, is_sound
 from saleg.errors import SalegError
 from saleg.kernel import layout
-from saleg.kernel.orbit import strokes_per_map
+from saleg.kernel.orbit import NEAR, strokes_per_map
 from saleg.kernel.orbits import Searches
 from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
@@ -33,7 +33,7 @@ from saleg.steady.return_map import (
     repeats_itself,
 )
 from saleg.steady.sealed_gas import rise_of_theta
-from saleg.steady.slow_states import NEAR, are_near, are_sharp, free_entries
+from saleg.steady.slow_states import are_near, are_sharp, free_entries
 from saleg.steady.solver import (
     MAX_MAPS,
     MAX_MISSED,

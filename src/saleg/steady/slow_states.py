@@ -13,15 +13,13 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
+from saleg.kernel.orbit import NEAR
 from saleg.simulation.initial_state import State
 from saleg.simulation.outcome import imbalance
 from saleg.steady.return_map import NoReturn, ReturnMap, Search, conserved_entries, is_adiabatic
 from saleg.steady.sealed_gas import rise_of_theta
 from saleg.steady.stability import FINE
 
-#: Distance from the fixed point, in the numbers of order one a state is written in, within which a
-#: state is steady, over the tolerance of the integrator.
-NEAR = 100.0
 #: Residual up to which what did not settle may only be slow.
 SLOW = 0.1
 #: Jumps of Newton's method, and those no shorter than the shortest before after which it gives up.
