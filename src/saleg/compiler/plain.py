@@ -39,6 +39,8 @@ COLUMNS = (
     "kernel/state.py",
     "kernel/slots.py",
     "kernel/needs.py",
+    "kernel/flow.py",
+    "kernel/breathing.py",
     "kernel/rhs.py",
     "kernel/switch.py",
 )

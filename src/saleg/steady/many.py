@@ -14,7 +14,7 @@ import numpy as np
 
 from saleg.compiler import search
 from saleg.compiler.compiled_engine import check_methods, numbers_of_rows
-from saleg.engine import BounceChamber, Engine
+from saleg.engine import Engine
 from saleg.engine.columns import Rows, is_sound
 from saleg.errors import SalegError
 from saleg.kernel import layout
@@ -243,8 +243,9 @@ def _leave_out_changed_entropies(
 
     Which chambers are adiabatic may depend on the numbers of their law.
     """
-    for side, chamber in enumerate(rows.engine.chambers):
-        if not isinstance(chamber, BounceChamber):
+    sides: tuple[Any, ...] = rows.engine.chambers
+    for side, chamber in enumerate(sides):
+        if not chamber.is_sealed:
             continue
         always = isinstance(chamber.heat_transfer, NoHeatTransfer)
         for n in np.flatnonzero(good).tolist():

@@ -16,7 +16,7 @@ import numpy as np
 from saleg.compiler import search
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.compiler.kernel import Kernel
-from saleg.engine import BounceChamber, Chamber, Engine
+from saleg.engine import Chamber, Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.orbit import (
     CYCLE,
@@ -25,8 +25,13 @@ from saleg.kernel.orbit import (
     IMAGE,
     Z_AMPERES,
     Z_CHAMBERS,
+    Z_CRANKCASE_BURNT,
+    Z_CRANKCASE_MASS,
+    Z_FRESH,
+    Z_LN_CRANKCASE,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
+    Z_WALL,
     mirror,
     read_vector,
     strokes_per_map,
@@ -66,6 +71,12 @@ TIMELESS = frozenset(Motion._fields) - {"t"}
 FARTHEST = 0.5
 #: Difference of a central difference, over the numbers of order one in a vector.
 DIFFERENCE = 1e-5
+#: Entries of the vector, per side, for the states that laws ask for; masses have entries anyway.
+ENTRIES_OF_STATES = {
+    "contents": (Z_FRESH,),
+    "wall_temperature": (Z_WALL,),
+    "crankcase": (Z_LN_CRANKCASE, Z_CRANKCASE_MASS, Z_CRANKCASE_BURNT),
+}
 
 
 class NoReturn(Exception):
@@ -310,12 +321,23 @@ def constant_entries(engine: Engine) -> set[int]:
         kept.add(Z_AMPERES)
     for side, chamber in enumerate(engine.chambers):
         first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
-        if isinstance(chamber, BounceChamber):
+        if chamber.is_sealed:
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
-            kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED}
+            kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED, first + Z_WALL}
         if not engine.needs_motored_pressure:
             kept.add(first + Z_LN_MOTORED)
-    return kept
+    return kept | unused_entries(engine)
+
+
+def unused_entries(engine: Engine) -> set[int]:
+    """Entries of the vector for states of the chambers that none of their laws asks for."""
+    return {
+        Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
+        for side, chamber in enumerate(engine.chambers)
+        for name, entries in ENTRIES_OF_STATES.items()
+        if name not in chamber.states
+        for n in entries
+    }
 
 
 def conserved_entries(engine: Engine) -> set[int]:
@@ -329,16 +351,16 @@ def sealed_entries(engine: Engine, wanted: Sequence[bool] = (True, True)) -> set
     return {
         Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
         for side, chamber in enumerate(engine.chambers)
-        if wanted[side] and isinstance(chamber, BounceChamber)
+        if wanted[side] and chamber.is_sealed
         for n in entries
     }
 
 
 def is_adiabatic(chamber: Chamber) -> bool:
     """Whether a chamber is sealed and without heat transfer, so that it keeps its entropy."""
-    if not isinstance(chamber, BounceChamber):
+    if not chamber.is_sealed:
         return False
-    law = chamber.heat_transfer
+    law = chamber.heat_transfer  # type: ignore[attr-defined]
     return isinstance(law, NoHeatTransfer) or law.coefficient(PROBE_GAS, PROBE_CHARGE) == 0.0
 
 

@@ -10,7 +10,6 @@ import math
 
 import numpy as np
 
-from saleg.engine import BounceChamber
 from saleg.kernel import layout
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.orbit import Z_CHAMBERS, Z_LN_MOTORED, Z_LN_PRESSURE, read_vector
@@ -34,7 +33,7 @@ def with_sealed_charges(return_map: ReturnMap, given: State, z: np.ndarray) -> n
     """
     filled, known = z.copy(), return_map.vector(given)
     for side, chamber in enumerate(return_map.engine.chambers):
-        if isinstance(chamber, BounceChamber):
+        if chamber.is_sealed:
             first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
             sealed = {first + n for n in range(layout.VECTOR_PER_SIDE)}
             entries = sorted(sealed - {first + Z_LN_PRESSURE, first + Z_LN_MOTORED})

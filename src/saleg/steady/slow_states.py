@@ -16,7 +16,14 @@ from saleg.kernel import layout
 from saleg.kernel.orbit import NEAR
 from saleg.simulation.initial_state import State
 from saleg.simulation.outcome import imbalance
-from saleg.steady.return_map import NoReturn, ReturnMap, Search, conserved_entries, is_adiabatic
+from saleg.steady.return_map import (
+    NoReturn,
+    ReturnMap,
+    Search,
+    conserved_entries,
+    is_adiabatic,
+    unused_entries,
+)
 from saleg.steady.sealed_gas import rise_of_theta
 from saleg.steady.stability import FINE
 
@@ -126,7 +133,8 @@ def are_near(vectors: Any, mirrored: bool, free: list[int], distance: float) -> 
 
 def free_entries(engine: Engine) -> list[int]:
     """Entries of the vector that an orbit decides about: all but entropies that nothing changes."""
-    return sorted(set(range(layout.N_VECTOR)) - conserved_entries(engine))
+    fixed = conserved_entries(engine) | unused_entries(engine)
+    return sorted(set(range(layout.N_VECTOR)) - fixed)
 
 
 def newton_step(return_map: ReturnMap) -> np.ndarray | None:
