@@ -116,7 +116,8 @@ def _closed(
 
     taken = (QUICK_MAPS, QUICK_STEPS) if effort is Effort.QUICK else (MAX_MAPS, STEPS_PER_CALL)
     limits = Limits(*taken, MAX_MISSED)
-    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, tell)
+    numbers = np.array([values[lot.places] for values in designs.values.values()]).T
+    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, tell, numbers)
     return None if orbits is None else orbits._replace(rows=_of_mass(orbits.rows, orbits.mass))
 
 

@@ -24,6 +24,7 @@ from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
 from saleg.status import Status
+from saleg.steady.lines import Lines, lines_among, no_lines
 from saleg.steady.return_map import (
     LONGEST,
     ReturnMap,
@@ -163,6 +164,7 @@ def searched(
     rtol: float,
     limits: Limits,
     tell: Callable[[States, np.ndarray], None] | None = None,
+    numbers: np.ndarray | None = None,
 ) -> Orbits | None:
     """Search from the first start, and the orbits it has found, if any.
 
@@ -177,6 +179,9 @@ def searched(
     limits : Limits
     tell : callable, optional
         Writes into the states the search begins with, given whether each row has one.
+    numbers : ndarray, shape (n, k), optional
+        What the engines are made from, by which lines among them are found; their own numbers
+        unless given.
     """
     begin, ready = prepare_rows(rows, _from_first_start)
     if not ready.any():
@@ -184,22 +189,94 @@ def searched(
     rows, begin = rows.some(ready), begin.some(ready)
     if tell is not None:
         tell(begin, ready)
-    states = begin.some(np.arange(rows.count))
-    return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
-    room = _room(rows, states)
-    return_map.find_each(limits.max_maps, RESIDUAL * rtol, room)
-    strokes = room.strokes.reshape(-1, 2)
-    good = room.codes == layout.END_OF_TIME
-    good &= room.found["missed"] <= limits.missed * rtol
-    good &= are_near(room, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
-    good &= are_sharp(room.found["slowness"], imbalance(strokes[:, 1], strokes), rtol)
-    _leave_out_changed_entropies(good, rows, begin, states, NEAR * RESIDUAL * rtol)
+    numbers = rows.numbers() if numbers is None else numbers[ready]
+    lines = lines_among(numbers) if _may_follow(rows.engine) else no_lines(rows.count)
+    search = _Search(rows, begin, mirrored, rtol, limits)
+    room, good = search.found(lines)
+    if lines.any:
+        search.check(lines, room, good)
     if not good.any():
         return None
     half_cycles = (room.found["maps"] * strokes_per_map(mirrored)).astype(int) + 2
-    mass, evaluations = states.engine["mass"], states.engine["evaluations"]
-    residual = room.found["missed"]
+    mass, evaluations = room.engine["mass"], room.engine["evaluations"]
+    residual, strokes = room.found["missed"], room.strokes.reshape(-1, 2)
     return Orbits(rows, mirrored, strokes, mass, half_cycles, evaluations, residual).some(good)
+
+
+def _may_follow(engine: Engine) -> bool:
+    """Whether engines may follow each other along a line.
+
+    What a bounce chamber holds is given, its entropy too: no neighbour may say it.
+    """
+    return not any(isinstance(chamber, BounceChamber) for chamber in engine.chambers)
+
+
+class _Search(NamedTuple):
+    """Search for the orbits of some engines.
+
+    Attributes
+    ----------
+    rows : Rows
+    begin : States
+        Where each begins.
+    mirrored, rtol, limits
+        As for :func:`searched`.
+    """
+
+    rows: Rows
+    begin: States
+    mirrored: bool
+    rtol: float
+    limits: Limits
+
+    def found(self, lines: Lines) -> tuple[Searches, np.ndarray]:
+        """What was found, and whether it is an orbit."""
+        rows, rtol, mirrored, limits = self.rows, self.rtol, self.mirrored, self.limits
+        states = self.begin.some(np.arange(rows.count))
+        return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
+        room = _room(rows, states, lines)
+        return_map.find_each(limits.max_maps, RESIDUAL * rtol, room)
+        strokes = room.strokes.reshape(-1, 2)
+        good = room.codes == layout.END_OF_TIME
+        good &= room.found["missed"] <= limits.missed * rtol
+        good &= are_near(room, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
+        good &= are_sharp(room.found["slowness"], imbalance(strokes[:, 1], strokes), rtol)
+        _leave_out_changed_entropies(good, rows, self.begin, states, NEAR * RESIDUAL * rtol)
+        return room, good
+
+    def some(self, chosen: np.ndarray) -> _Search:
+        """The search for some of them."""
+        rest = self[2:]
+        return _Search(self.rows.some(chosen), self.begin.some(chosen), *rest)
+
+    def check(self, lines: Lines, room: Searches, good: np.ndarray) -> None:
+        """Replace what lines have led to and engines would not have come to from their starts.
+
+        At some rows both are compared. Where they differ, or a line has led to no orbit, the rows
+        since the last that agreed are searched for from their own starts.
+        """
+        doubtful = (room.followed & ~good) | lines.checked
+        differs = self._take_from_starts(np.flatnonzero(doubtful), room, good)
+        again = lines.around(differs) & room.followed & ~doubtful
+        self._take_from_starts(np.flatnonzero(again), room, good)
+
+    def _take_from_starts(self, chosen: np.ndarray, room: Searches, good: np.ndarray) -> np.ndarray:
+        """Put what rows come to from their own starts in place; which that changes."""
+        if not len(chosen):
+            return chosen
+        own, own_good = self.some(chosen).found(no_lines(len(chosen)))
+        apart = np.abs(own.image - room.image[chosen]).max(axis=1)
+        apart_modes = own.chambers["mode"] != room.chambers["mode"].reshape(-1, 2)[chosen].ravel()
+        same = apart <= NEAR * RESIDUAL * self.rtol
+        same &= ~apart_modes.reshape(-1, 2).any(axis=1)
+        differs = chosen[(own_good & ~same) | (~own_good & good[chosen])]
+        for name in ("engine", "y", "codes", "found", "followed", "point", "residual", "image"):
+            getattr(room, name)[chosen] = getattr(own, name)
+        for name in ("chambers", "strokes"):
+            pairs = getattr(room, name).reshape(-1, 2)
+            pairs[chosen] = getattr(own, name).reshape(-1, 2)
+        good[chosen] = own_good
+        return differs
 
 
 def verdicts(orbits: Orbits, rtol: float) -> tuple[np.ndarray, np.ndarray]:
@@ -216,7 +293,7 @@ def verdicts(orbits: Orbits, rtol: float) -> tuple[np.ndarray, np.ndarray]:
     return np.array(statuses, dtype=object), np.array(messages, dtype=object)
 
 
-def _room(rows: Rows, states: States) -> Searches:
+def _room(rows: Rows, states: States, lines: Lines) -> Searches:
     """Engines and their states as the compiled search takes them, with room for what it finds."""
     n, E = rows.count, states.engine
     vectors = np.zeros((3, n, layout.N_VECTOR))
@@ -226,6 +303,10 @@ def _room(rows: Rows, states: States) -> Searches:
         chambers=states.chambers.reshape(2 * n),
         y=states.y,
         longest=LONGEST * E["length_scale"] / E["speed_scale"],
+        order=lines.order,
+        before=lines.before,
+        ahead=lines.ahead,
+        followed=np.full(n, False),
         codes=np.zeros(n, np.int64),
         found=np.zeros(n, layout.SEARCH_RECORD),
         spare=np.zeros(1, layout.SEARCH_RECORD),
