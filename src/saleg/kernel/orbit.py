@@ -97,6 +97,8 @@ def write_vector(E, C, y, z):
 @compiled
 def read_vector(E, C, y, z):
     """Set the state from a vector; modes, and all else that is not in it, stay as they are."""
+    if E.mass_fixed > 0.0:
+        E.mass = exp(z[Z_LN_MASS_MOVING])
     y[X] = z[Z_POSITION] * E.length_scale
     y[V] = 0.0
     E.x_dead_centre = y[X]
@@ -108,8 +110,6 @@ def read_vector(E, C, y, z):
     E.last_fuel_energy = z[Z_FUEL_ENERGY] * (E.mass * E.speed_scale**2)
     E.last_speed_squared = z[Z_SPEED_SQUARED] * (E.speed_scale * E.length_scale)
     y[CURRENT] = z[Z_AMPERES] * E.current_scale
-    if E.mass_fixed > 0.0:
-        E.mass = exp(z[Z_LN_MASS_MOVING])
     for side in range(2):
         c = C[side]
         first = Z_CHAMBERS + VECTOR_PER_SIDE * side
