@@ -2,9 +2,10 @@
 
 All of one choice of laws: what the search works on belongs to one return map, into which the
 numbers of each engine are copied, and out of which its results are. An engine that stands on a line
-with others begins where their fixed points lead to, extrapolated by a parabola at most.
+with others begins where their fixed points lead to, extrapolated by a cubic at most.
 """
 
+from math import inf
 from typing import Any, NamedTuple
 
 from saleg.kernel.jit import cached, compiled, inline
@@ -21,9 +22,9 @@ from saleg.kernel.orbit import (
 )
 from saleg.kernel.state import begin_stroke, copy_row
 
-# Fixed points an extrapolation goes through: a straight line's at least, a parabola's at most.
+# Fixed points an extrapolation goes through: a straight line's at least, a cubic's at most.
 FEWEST_BEFORE = 2
-MOST_BEFORE = 3
+MOST_BEFORE = 4
 # Maps a search from an extrapolated point may take; from a start of its own it takes some ten.
 FEW_MAPS = 20
 # Distance of a fixed point from the extrapolated one beyond which it is on another branch.
@@ -162,6 +163,32 @@ def extrapolate_line(searches, row, known, z):
             z[m] += weight * searches.image[searches.before[row, i], m]
 
 
+@inline
+def misses(searches, row, known, z):
+    """How far an extrapolation through some fixed points would have missed that of a row."""
+    extrapolate_line(searches, row, known, z)
+    return distance(z, searches.image[row])
+
+
+@compiled
+def best_known(searches, row, z):
+    """Through how many fixed points to extrapolate: what would have been best for the two before.
+
+    Noise speaks for few, a curve for many. `z` is room for a vector.
+    """
+    most = known_before(searches, row)
+    if most <= FEWEST_BEFORE:
+        return most
+    near, next_one = searches.before[row, 0], searches.before[row, 1]
+    most = min(most, min(known_before(searches, near), known_before(searches, next_one)))
+    best, least = FEWEST_BEFORE, inf
+    for known in range(FEWEST_BEFORE, most + 1):
+        missed = misses(searches, near, known, z) + misses(searches, next_one, known, z)
+        if missed < least:
+            best, least = known, missed
+    return best
+
+
 @compiled
 def begin_beside(searches, row, near, mapping, z):
     """Go to a vector in the modes of a neighbour; false if the neighbour begins on the other side.
@@ -191,7 +218,7 @@ def follow(searches, row, mapping, tolerance, iterates):
 
     It counts if it is where it was expected, in the modes of its neighbour.
     """
-    known = known_before(searches, row)
+    known = best_known(searches, row, iterates.residual)
     if known < FEWEST_BEFORE:
         return False
     near, found = searches.before[row, 0], searches.found[row]
