@@ -21,6 +21,7 @@ from saleg.kernel.orbit import (
     write_vector,
 )
 from saleg.kernel.state import begin_stroke, copy_row
+from saleg.kernel.tuples import Snapshots
 
 # Fixed points an extrapolation goes through: a straight line's at least, a cubic's at most.
 FEWEST_BEFORE = 2
@@ -62,6 +63,9 @@ class Searches(NamedTuple):
         The two strokes of the cycle, from its left dead centre.
     point, residual, image : ndarray, shape (n, N_VECTOR)
         As in :class:`~saleg.kernel.tuples.Iterates` after the search.
+    starts : Snapshots
+        States at the left dead centres at which the cycles begin; the chambers two for each row,
+        as whole numbers of 8 bytes.
     """
 
     laws: Any
@@ -80,6 +84,7 @@ class Searches(NamedTuple):
     point: Any
     residual: Any
     image: Any
+    starts: Snapshots
 
 
 @inline
@@ -251,6 +256,19 @@ def find_row(searches, row, mapping, max_maps, tolerance, iterates):
     return code
 
 
+@inline
+def keep_cycle(searches, row, run):
+    """Copy the cycle just recorded, and the state it began at, out of the return map."""
+    starts, begun = searches.starts, run.snapshots
+    copy_row(starts.engine, row, begun.engine, 1)
+    for n in range(N_ALL):
+        starts.y[row, n] = begun.y[1, n]
+    for side in range(2):
+        for n in range(run.words.kept_chambers.shape[2]):
+            starts.chambers[2 * row + side, n] = run.words.kept_chambers[1, side, n]
+        copy_row(searches.strokes, 2 * row + side, run.tables.strokes, side)
+
+
 @cached
 def find_orbits(mapping, max_maps, tolerance, iterates, searches):
     """Entry point: look for the fixed point of every engine."""
@@ -262,6 +280,5 @@ def find_orbits(mapping, max_maps, tolerance, iterates, searches):
         put_down(searches, row, mapping, iterates)
         if code == END_OF_TIME and run.engine[0].direction <= 0.0:
             begin_on_the_left(mapping, iterates, searches.spare[0])
-        for stroke in range(2):
-            copy_row(searches.strokes, 2 * row + stroke, run.tables.strokes, stroke)
+        keep_cycle(searches, row, run)
     return 0

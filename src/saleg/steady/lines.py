@@ -120,7 +120,7 @@ def _longest(scaled: np.ndarray) -> tuple[int, np.ndarray] | None:
     most_lines = len(scaled) // WORTH_IT
     varied = [len(np.unique(column)) > most_lines for column in scaled.T]
     candidates = np.flatnonzero(varied) if any(varied) else np.arange(len(varied))
-    if most_lines < 1 or not 0 < len(candidates) or sum(varied) > 1:
+    if most_lines < 1 or not len(candidates) > 0 or sum(varied) > 1:
         return None
     ways = []
     for along in candidates.tolist():

@@ -20,17 +20,18 @@ from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.orbit import NEAR, strokes_per_map
 from saleg.kernel.orbits import Searches
+from saleg.kernel.tuples import Snapshots
 from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
 from saleg.status import Status
 from saleg.steady.lines import Lines, lines_among, no_lines
 from saleg.steady.return_map import (
-    LONGEST,
     ReturnMap,
     has_laws_that_mirror,
     is_adiabatic,
     is_symmetric,
+    longest_return,
     repeats_itself,
 )
 from saleg.steady.sealed_gas import rise_of_theta
@@ -85,6 +86,8 @@ class Orbits(NamedTuple):
     half_cycles : ndarray of int, shape (n,)
     evaluations, residual : ndarray, shape (n,)
         As in :class:`saleg.SteadyState`.
+    starts : States
+        At the left dead centres at which the cycles begin.
     """
 
     rows: Rows
@@ -94,11 +97,21 @@ class Orbits(NamedTuple):
     half_cycles: np.ndarray
     evaluations: np.ndarray
     residual: np.ndarray
+    starts: States
 
     def some(self, chosen: np.ndarray) -> Orbits:
         """Some of them."""
-        rest = (part[chosen] for part in self[2:])
-        return Orbits(self.rows.some(chosen), self.mirrored, *rest)
+        strokes, mass, half_cycles, evaluations, residual = (p[chosen] for p in self[2:-1])
+        return Orbits(
+            rows=self.rows.some(chosen),
+            mirrored=self.mirrored,
+            strokes=strokes,
+            mass=mass,
+            half_cycles=half_cycles,
+            evaluations=evaluations,
+            residual=residual,
+            starts=self.starts.some(chosen),
+        )
 
 
 def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
@@ -197,10 +210,18 @@ def searched(
         search.check(lines, room, good)
     if not good.any():
         return None
-    half_cycles = (room.found["maps"] * strokes_per_map(mirrored)).astype(int) + 2
-    mass, evaluations = room.engine["mass"], room.engine["evaluations"]
-    residual, strokes = room.found["missed"], room.strokes.reshape(-1, 2)
-    return Orbits(rows, mirrored, strokes, mass, half_cycles, evaluations, residual).some(good)
+    begun = room.starts
+    chambers = begun.chambers.view(layout.CHAMBER_RECORD).reshape(-1, 2)
+    return Orbits(
+        rows=rows,
+        mirrored=mirrored,
+        strokes=room.strokes.reshape(-1, 2),
+        mass=room.engine["mass"],
+        half_cycles=(room.found["maps"] * strokes_per_map(mirrored)).astype(int) + 2,
+        evaluations=room.engine["evaluations"],
+        residual=room.found["missed"],
+        starts=States(begun.engine, chambers, begun.y),
+    ).some(good)
 
 
 def _may_follow(engine: Engine) -> bool:
@@ -275,6 +296,9 @@ class _Search(NamedTuple):
         for name in ("chambers", "strokes"):
             pairs = getattr(room, name).reshape(-1, 2)
             pairs[chosen] = getattr(own, name).reshape(-1, 2)
+        for begun, own_begun in zip(room.starts, own.starts, strict=True):
+            each = begun.reshape(len(good), -1)
+            each[chosen] = own_begun.reshape(len(chosen), -1)
         good[chosen] = own_good
         return differs
 
@@ -295,14 +319,15 @@ def verdicts(orbits: Orbits, rtol: float) -> tuple[np.ndarray, np.ndarray]:
 
 def _room(rows: Rows, states: States, lines: Lines) -> Searches:
     """Engines and their states as the compiled search takes them, with room for what it finds."""
-    n, E = rows.count, states.engine
+    n = rows.count
+    words = layout.CHAMBER_RECORD.itemsize // 8
     vectors = np.zeros((3, n, layout.N_VECTOR))
     return Searches(
         laws=numbers_of_rows(rows.engine, n),
-        engine=E,
+        engine=states.engine,
         chambers=states.chambers.reshape(2 * n),
         y=states.y,
-        longest=LONGEST * E["length_scale"] / E["speed_scale"],
+        longest=longest_return(states.engine),
         order=lines.order,
         before=lines.before,
         ahead=lines.ahead,
@@ -314,6 +339,11 @@ def _room(rows: Rows, states: States, lines: Lines) -> Searches:
         point=vectors[0],
         residual=vectors[1],
         image=vectors[2],
+        starts=Snapshots(
+            engine=np.zeros(n, layout.ENGINE_RECORD),
+            chambers=np.zeros((2 * n, words), np.int64),
+            y=np.zeros((n, layout.N_ALL)),
+        ),
     )
 
 
