@@ -123,7 +123,7 @@ def steady_states(
     units = STABILITY_UNITS if multipliers else STEADY_UNITS
     if chunk is None:
         count = len(engines) if isinstance(engines, Sequence) else None
-        chunk = suitable_chunk(count, workers)
+        chunk = suitable_chunk(count)
     return batch_table(work, engines, units, kernel_for, executor, workers, chunk)
 
 

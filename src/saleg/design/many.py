@@ -70,7 +70,7 @@ class DesignSolverOfColumns(DesignSolver):
 
     def columns(self, points: Sequence[Values]) -> Columns:
         """Rows of some designs, column by column."""
-        how = self._rtol, self._multipliers, self._effort
+        how = self._rtol, self._effort, self._multipliers
         together = solved_together(self._design, points, *how)
         return filled_up(len(points), together, lambda place: self(points[place]))
 

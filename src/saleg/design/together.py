@@ -52,7 +52,11 @@ class Designs(NamedTuple):
 
 
 def solved_together(
-    design: Design, points: Sequence[Values], rtol: float, multipliers: bool, effort: Effort
+    design: Design,
+    points: Sequence[Values],
+    rtol: float,
+    effort: Effort,
+    multipliers: bool = False,
 ) -> list[tuple[np.ndarray, Columns]]:
     """Columns of those designs whose loop closes where the first start leads, and their places.
 
@@ -63,9 +67,9 @@ def solved_together(
         Numbers of each design to replace, by name.
     rtol : float
         Tolerance of the integrator, and of the mass.
+    effort : Effort
     multipliers : bool
         Whether to differentiate each steady state.
-    effort : Effort
     """
     designs = Designs(design, {name: np.array([p[name] for p in points]) for name in points[0]})
     if not all(_is_ours(getattr(design.masses, f.name)) for f in dataclasses.fields(design.masses)):

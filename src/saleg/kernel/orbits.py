@@ -27,7 +27,7 @@ from saleg.kernel.tuples import Snapshots
 FEWEST_BEFORE = 2
 MOST_BEFORE = 4
 # Maps a search from an extrapolated point may take; from a start of its own it takes some ten.
-FEW_MAPS = 20
+FEW_MAPS = 12
 # Distance of a fixed point from the extrapolated one beyond which it is on another branch.
 FARTHEST_BESIDE = 0.1
 
