@@ -40,6 +40,7 @@ COLUMNS = (
     "kernel/slots.py",
     "kernel/needs.py",
     "kernel/rhs.py",
+    "kernel/events.py",
     "kernel/switch.py",
 )
 

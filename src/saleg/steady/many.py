@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -34,7 +34,7 @@ from saleg.steady.return_map import (
     longest_return,
     repeats_itself,
 )
-from saleg.steady.sealed_gas import rise_of_theta
+from saleg.steady.sealed_gas import rises_of_theta
 from saleg.steady.slow_states import are_near, are_sharp, free_entries
 from saleg.steady.solver import (
     MAX_MAPS,
@@ -357,11 +357,9 @@ def _leave_out_changed_entropies(
     for side, chamber in enumerate(rows.engine.chambers):
         if not isinstance(chamber, BounceChamber):
             continue
-        always = isinstance(chamber.heat_transfer, NoHeatTransfer)
-        for n in np.flatnonzero(good).tolist():
-            one: Any = rows.row(n).chambers[side]
-            if always:
-                rise = rise_of_theta(one.gas_properties, begin.row(n), end.row(n), side)
-                good[n] = abs(rise) <= tolerance
-            else:
-                good[n] = not is_adiabatic(one)
+        if isinstance(chamber.heat_transfer, NoHeatTransfer):
+            rises = rises_of_theta(rows, begin, end, side, np.flatnonzero(good))
+            good &= np.abs(rises) <= tolerance
+        else:
+            for n in np.flatnonzero(good).tolist():
+                good[n] = not is_adiabatic(rows.row(n).chambers[side])
