@@ -98,7 +98,8 @@ def steady_states(
     workers : int, optional
         Threads; as many as there are processors unless given.
     chunk : int, optional
-        Engines sent at a time; 32 to 128 unless given, so that no worker waits.
+        Engines sent at a time; 32 to 256 unless given, an eighth of them if that is between.
+        Where engines stand along lines, the last digits depend on it, within the tolerance.
 
     Returns
     -------
