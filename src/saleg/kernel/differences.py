@@ -66,32 +66,34 @@ def image_beside(differences, row, mapping, entry, change, iterates):
 
 
 @compiled
-def differentiate(differences, row, mapping, iterates):
-    """Derivative of the return map of an engine; why the integrator came back.
+def differentiate_by(entry, differences, row, mapping, iterates):
+    """Derivative by one entry of the vector; why the integrator came back.
 
     An entry on which nothing depends, to the last bit, is seen by its first image.
     """
     middle, ahead, image = iterates.residual, iterates.points[0], iterates.image
+    code = image_beside(differences, row, mapping, entry, differences.by, iterates)
+    same = True
+    for m in range(N_VECTOR):
+        ahead[m] = image[m]
+        same = same and image[m] == middle[m]
+    if same or code != END_OF_TIME:
+        return code
+    code = image_beside(differences, row, mapping, entry, -differences.by, iterates)
+    for m in range(N_VECTOR):
+        differences.matrices[row, m, entry] = (ahead[m] - image[m]) / (2.0 * differences.by)
+    return code
+
+
+@compiled
+def differentiate(differences, row, mapping, iterates):
+    """Derivative of the return map of an engine; why the integrator came back."""
     code = image_beside(differences, row, mapping, 0, 0.0, iterates)
     for m in range(N_VECTOR):
-        middle[m] = image[m]
-    for n in range(N_VECTOR):
-        if code != END_OF_TIME:
-            return code
-        if not differences.moved[row, n]:
-            continue
-        code = image_beside(differences, row, mapping, n, differences.by, iterates)
-        if code != END_OF_TIME:
-            return code
-        same = True
-        for m in range(N_VECTOR):
-            ahead[m] = image[m]
-            same = same and image[m] == middle[m]
-        if same:
-            continue
-        code = image_beside(differences, row, mapping, n, -differences.by, iterates)
-        for m in range(N_VECTOR):
-            differences.matrices[row, m, n] = (ahead[m] - image[m]) / (2.0 * differences.by)
+        iterates.residual[m] = iterates.image[m]
+    for entry in range(N_VECTOR):
+        if code == END_OF_TIME and differences.moved[row, entry]:
+            code = differentiate_by(entry, differences, row, mapping, iterates)
     return code
 
 
