@@ -42,6 +42,7 @@ COLUMNS = (
     "kernel/flow.py",
     "kernel/breathing.py",
     "kernel/rhs.py",
+    "kernel/events.py",
     "kernel/switch.py",
 )
 

@@ -60,9 +60,10 @@ SEARCH = (
     "kernel/state.py",
     "kernel/orbit.py",
     "kernel/orbits.py",
+    "kernel/differences.py",
     "compiler/run_at.py",
 )
-INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "run_plainly")
+INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "differences", "run_plainly")
 
 #: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. A function first met in one
 #: that is folded into its callers would inherit that, if it were not told. Only entry points get

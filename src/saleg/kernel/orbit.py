@@ -6,7 +6,7 @@ dimensionless numbers it can be compared, extrapolated and put back. A mirrored 
 itself, seen in the mirror, after half a cycle.
 """
 
-from math import exp, inf, isfinite, log
+from math import asinh, exp, inf, isfinite, log, sinh
 
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
@@ -86,7 +86,7 @@ def write_vector(E, C, y, z):
     z[Z_POSITION] = y[X] / E.length_scale
     z[Z_LN_SPEED] = log(max(E.mean_piston_speed, 1e-300))
     z[Z_WEIGHT] = E.load_weight
-    z[Z_FRICTION] = E.friction_held
+    z[Z_FRICTION] = asinh(E.friction_held)  # what a law remembers may be of any size
     z[Z_STROKE] = E.stroke / E.length_scale
     z[Z_FUEL_ENERGY] = E.last_fuel_energy / (E.mass * E.speed_scale**2)
     z[Z_SPEED_SQUARED] = E.last_speed_squared / (E.speed_scale * E.length_scale)
@@ -135,19 +135,19 @@ def read_contents(C, side, y, z, first):
 @compiled
 def read_vector(E, C, y, z):
     """Set the state from a vector; modes, and all else that is not in it, stay as they are."""
+    if E.mass_fixed > 0.0:
+        E.mass = exp(z[Z_LN_MASS_MOVING])
     y[X] = z[Z_POSITION] * E.length_scale
     y[V] = 0.0
     E.x_dead_centre = y[X]
     E.t_dead_centre = E.t
     E.mean_piston_speed = exp(z[Z_LN_SPEED])
     E.load_weight = z[Z_WEIGHT]
-    E.friction_held = z[Z_FRICTION]
+    E.friction_held = sinh(z[Z_FRICTION])
     E.stroke = z[Z_STROKE] * E.length_scale
     E.last_fuel_energy = z[Z_FUEL_ENERGY] * (E.mass * E.speed_scale**2)
     E.last_speed_squared = z[Z_SPEED_SQUARED] * (E.speed_scale * E.length_scale)
     y[CURRENT] = z[Z_AMPERES] * E.current_scale
-    if E.mass_fixed > 0.0:
-        E.mass = exp(z[Z_LN_MASS_MOVING])
     for side in range(2):
         c = C[side]
         first = Z_CHAMBERS + VECTOR_PER_SIDE * side

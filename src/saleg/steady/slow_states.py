@@ -39,6 +39,8 @@ FINE_STEPS = 3000
 SLOWEST = 30.0
 #: Imbalance of a cycle's energy, over its largest term, from which its steps are too coarse.
 COARSE = 1e-6
+#: Residual that may be nothing but rounding, and says nothing of how far there is to go.
+ROUNDING = 1e-13
 #: Factor on the tolerance of an orbit that is found anew with finer steps, and the finest there is.
 FINER = 1e-2
 FINEST = 1e-9
@@ -128,6 +130,7 @@ def are_near(vectors: Any, mirrored: bool, free: list[int], distance: float) -> 
     first, second = vectors.residual, vectors.image - vectors.point
     usual, share = (2.0, 1.5) if mirrored else (1.0, 1.0)
     far = share * np.abs(first * second) > distance * np.abs(usual * first - second)
+    far &= np.abs(second) > ROUNDING
     return ~far[..., free].any(axis=-1)
 
 
