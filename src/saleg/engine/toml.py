@@ -27,6 +27,7 @@ from saleg.engine.engine import Engine
 from saleg.engine.start import Start
 from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest, shown
 from saleg.files.reading import read_text
+from saleg.laws import FixedWall, NoLeak, Plenum
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, FlowExchange
 from saleg.quantities import is_number
 
@@ -34,6 +35,8 @@ from saleg.quantities import is_number
 SLOTS: dict[str, type] = {**CHAMBER_SLOTS, **ENGINE_SLOTS, "start": Start}
 #: Classes that laws derive from, and no laws themselves.
 BASES = (*SLOTS.values(), FlowExchange)
+#: Laws a file does not name: what stands in their slots if nothing is said.
+UNSAID = (NoLeak, FixedWall, Plenum)
 CHAMBERS: dict[str, type] = {
     kind.__name__: kind for kind in (Cylinder, SealedCylinder, BounceChamber)
 }
@@ -170,6 +173,8 @@ def _table(path: str, node: Any) -> list[str]:
         lines.append(f"{word} = {_quoted(type(node).__name__)}")
     for item in dataclasses.fields(node):
         value = getattr(node, item.name)
+        if type(value) in UNSAID:
+            continue
         if dataclasses.is_dataclass(value):
             below += _table(f"{path}.{item.name}", value)
         else:

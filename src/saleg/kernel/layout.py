@@ -324,6 +324,7 @@ STROKE_RECORD = np.dtype(
             "combustion_duration",
             "fresh_mass",
             "closing_mass",
+            "closing_temperature",
             "supplied_mass",
             "expelled_mass",
             "expelled_fresh",

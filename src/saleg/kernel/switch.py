@@ -357,6 +357,7 @@ def write_passed(C, side, y, row):
     row.exhaust_energy[side] += y[ENTHALPY_OUT + side]
     row.fresh_mass[side] = c.fresh
     row.closing_mass[side] = c.p_closing * c.V_closing / (c.gas_constant * c.T_closing)
+    row.closing_temperature[side] = c.T_closing
     row.supplied_mass[side] = y[SUPPLIED + side]
     row.expelled_mass[side] = y[EXPELLED + side]
     row.expelled_fresh[side] = y[EXPELLED_FRESH + side]

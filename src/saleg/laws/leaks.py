@@ -38,8 +38,10 @@ class RingLeak(Leak):
     ----------
     gap : float
         Effective area of the gap [m^2].
-    pressure, temperature : float
-        State of the gas beyond the rings [Pa, K].
+    pressure : float
+        Pressure beyond the rings [Pa].
+    temperature : float
+        Temperature there [K].
     """
 
     states: ClassVar[tuple[str, ...]] = ("contents",)
@@ -71,8 +73,10 @@ class MakeUpValve(Leak):
         Pressure difference at which it is fully open [Pa].
     gap : float
         Effective area past the rings, both ways [m^2].
-    pressure, temperature : float
-        State of the supply [Pa, K].
+    pressure : float
+        Pressure of the supply [Pa].
+    temperature : float
+        Temperature of the supply [K].
     """
 
     states: ClassVar[tuple[str, ...]] = ("contents",)
