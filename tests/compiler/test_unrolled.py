@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from saleg.compiler.needs import QUADRATURES, Needs
+from saleg.compiler.needs import QUADRATURES, TOTALS, Needs
 from saleg.compiler.unrolled import adaptive_step
 from saleg.kernel import layout
 from saleg.laws import CircuitAlternator, LinearLoad, Woschni
@@ -21,7 +21,7 @@ def growth(P, E, C, t, y, dy, motored):
 def step_of(needs, h):
     """End of a step from 1, 2, 3 ..., and the estimated error of position."""
     names = {"compiled": lambda f: f, "inline": lambda f: f, "write_rates": growth}
-    exec(adaptive_step(needs.states, needs.kept, QUADRATURES), names)
+    exec(adaptive_step(needs.states, needs.kept, needs.sums), names)
     y = np.arange(1.0, layout.N_ALL + 1.0)
     k, y_new = np.zeros((7, layout.N_ALL)), np.full(layout.N_ALL, math.nan)
     k[0] = y

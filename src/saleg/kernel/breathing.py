@@ -120,7 +120,7 @@ class Flows(NamedTuple):
     mass, fuel, air, burnt, fresh : float
         Rates of the contents, combustion left out [kg/s].
     supplied, supplied_fuel, expelled, expelled_fuel, expelled_fresh : float
-        In through the intake, and out elsewhere [kg/s].
+        In through the intake; out, back into the intake too, less what comes back [kg/s].
     enthalpy : float
         Out, less in [W].
     drawn, drawn_burnt, drawn_enthalpy : float
@@ -197,11 +197,12 @@ def chamber_flows(P, C, side, y, gas):
     c = C[side]
     R, mass = c.gas_constant, mass_of(C, side, y)
     g = gas_properties_gamma(P, side, gas.T)
-    area_in, area_out = 0.0, 0.0
+    area_in, area_out, p_exhaust, T_exhaust = 0.0, 0.0, gas.p, gas.T
+    supply = Supplied(c.intake_pressure, c.intake_temperature, 0.0)
     if c.mode == OPEN:
         area_in, area_out = gas_exchange_areas(P, side, gas.clearance - c.port)
-    supply = supply_of(P, C, side, y)
-    p_exhaust, T_exhaust = gas_exchange_exhaust(P, side)
+        p_exhaust, T_exhaust = gas_exchange_exhaust(P, side)
+        supply = supply_of(P, C, side, y)
     p_leak, T_leak = leak_beyond(P, side)
     intake = flow_in(P, side, area_in, gas, g, R, supply.p, supply.T)
     exhaust = flow_in(P, side, area_out, gas, g, R, p_exhaust, T_exhaust)
@@ -209,7 +210,11 @@ def chamber_flows(P, C, side, y, gas):
     # Compositions: of the supply with its fuel metered at the ports, of what leaves, of the gas.
     metered = c.equivalence_ratio_wanted / (c.equivalence_ratio_wanted + c.air_fuel_ratio)
     fuel_share, burnt_share = metered * (1.0 - supply.burnt), (1.0 - metered) * supply.burnt
-    fuel_out, burnt_out, fresh_out = shares_leaving(P, C, side, y, mass, fuel_share, burnt_share)
+    fuel_out, burnt_out, fresh_out = 0.0, 0.0, 0.0
+    if c.mode == OPEN:
+        fuel_out, burnt_out, fresh_out = shares_leaving(
+            P, C, side, y, mass, fuel_share, burnt_share
+        )
     fuel_here, burnt_here = y[FUEL + side] / mass, y[BURNT + side] / mass
     fresh_here = y[FRESH + side] / mass
     fed, drawn_back = max(intake, 0.0), max(-intake, 0.0)
@@ -234,11 +239,11 @@ def chamber_flows(P, C, side, y, gas):
         air=net - fuel - burnt,
         burnt=burnt,
         fresh=fresh,
-        supplied=intake,
-        supplied_fuel=fed * fuel_share - drawn_back * fuel_out,
-        expelled=gone + leaked - back - seeped,
-        expelled_fuel=gone * fuel_out + leaked * fuel_here,
-        expelled_fresh=gone * fresh_out + leaked * fresh_here,
+        supplied=fed,
+        supplied_fuel=fed * fuel_share,
+        expelled=out - back - seeped,
+        expelled_fuel=leaves * fuel_out + leaked * fuel_here,
+        expelled_fresh=leaves * fresh_out + leaked * fresh_here,
         enthalpy=out * h - h_in,
         drawn=fed * from_supply - drawn_back,
         drawn_burnt=fed * burnt_share - drawn_back * burnt_out,

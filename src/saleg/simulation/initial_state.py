@@ -293,6 +293,7 @@ def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> Non
     y[layout.THETA + side] = y[layout.MOTORED + side] = theta
     y[layout.WALL + side] = c.wall_temperature
     if c.breathes:
+        c.air = c.mass - c.fuel - c.burnt  # all of it in a chamber that burns nothing
         y[layout.FUEL + side], y[layout.AIR + side], y[layout.BURNT + side] = c.fuel, c.air, c.burnt
 
 

@@ -154,7 +154,7 @@ def _can_be_searched(engine: Engine) -> bool:
         engine.validate()
         engine.check_laws()
         check_methods(engine.laws.values())
-        return repeats_itself(engine)
+        return repeats_itself(engine) and not any(chamber.states for chamber in engine.chambers)
     except SalegError:
         return False
 
