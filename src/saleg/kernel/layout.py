@@ -4,9 +4,9 @@ import numpy as np
 
 from saleg.laws.arguments import Commands, Signals
 
-# Sides.
-LEFT = 0
-RIGHT = 1
+# Sides. As whole numbers of numpy's: for one of Python's own numba compiles a function anew per value.
+LEFT = np.int64(0)
+RIGHT = np.int64(1)
 
 # Modes of a chamber; they belong to the kernel, no law ever sees or sets them.
 OPEN = 0
