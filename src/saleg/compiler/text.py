@@ -15,7 +15,7 @@ from typing import Any
 
 from saleg.compiler.imported_text import NoSource
 from saleg.compiler.module import without_source
-from saleg.compiler.needs import QUADRATURES, Needs
+from saleg.compiler.needs import Needs
 from saleg.compiler.records import OTHER_SLOTS
 from saleg.compiler.source import Borrowed, earlier_attributes
 from saleg.compiler.strength_reduction import EXPONENTIAL
@@ -38,6 +38,8 @@ BEFORE_SLOTS = (
 #: Modules of the kernel that make up the integrator.
 INTEGRATOR = (
     "needs",
+    "flow",
+    "breathing",
     "rhs",
     "general",
     "adaptive",
@@ -58,9 +60,10 @@ SEARCH = (
     "kernel/state.py",
     "kernel/orbit.py",
     "kernel/orbits.py",
+    "kernel/differences.py",
     "compiler/run_at.py",
 )
-INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "run_plainly")
+INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "differences", "run_plainly")
 
 #: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. A function first met in one
 #: that is folded into its callers would inherit that, if it were not told. Only entry points get
@@ -134,7 +137,7 @@ def _kernel_text(name: str, needs: Needs) -> str:
     if name == "needs":
         written = needs.text
     elif name == "adaptive":
-        written = adaptive_step(needs.states, needs.kept, QUADRATURES)
+        written = adaptive_step(needs.states, needs.kept, needs.sums)
     else:
         return own_text(f"kernel/{name}.py")
     return f"# --- kernel/{name}.py\n{written}"

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.batch.many import columns_of, cycle_figures_of
+from saleg.batch.many import columns_of, cycle_figures_of, stability_columns
 from saleg.batch.points import Values
 from saleg.batch.table import Columns
 from saleg.columns import by_branch, column
@@ -52,7 +52,11 @@ class Designs(NamedTuple):
 
 
 def solved_together(
-    design: Design, points: Sequence[Values], rtol: float, effort: Effort
+    design: Design,
+    points: Sequence[Values],
+    rtol: float,
+    effort: Effort,
+    multipliers: bool = False,
 ) -> list[tuple[np.ndarray, Columns]]:
     """Columns of those designs whose loop closes where the first start leads, and their places.
 
@@ -64,6 +68,8 @@ def solved_together(
     rtol : float
         Tolerance of the integrator, and of the mass.
     effort : Effort
+    multipliers : bool
+        Whether to differentiate each steady state.
     """
     designs = Designs(design, {name: np.array([p[name] for p in points]) for name in points[0]})
     if not all(_is_ours(getattr(design.masses, f.name)) for f in dataclasses.fields(design.masses)):
@@ -72,7 +78,7 @@ def solved_together(
     for lot, mirrored in _lots(designs, len(points)):
         orbits = _closed(designs, lot, mirrored, rtol, effort)
         if orbits is not None:
-            lots += _columns(designs, orbits, rtol)
+            lots += _columns(designs, orbits, rtol, multipliers)
     return lots
 
 
@@ -116,7 +122,8 @@ def _closed(
 
     taken = (QUICK_MAPS, QUICK_STEPS) if effort is Effort.QUICK else (MAX_MAPS, STEPS_PER_CALL)
     limits = Limits(*taken, MAX_MISSED)
-    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, tell)
+    numbers = np.array([values[lot.places] for values in designs.values.values()]).T
+    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, tell, numbers)
     return None if orbits is None else orbits._replace(rows=_of_mass(orbits.rows, orbits.mass))
 
 
@@ -132,7 +139,9 @@ def _of_mass(rows: Rows, mass: np.ndarray) -> Rows:
     return Rows(dataclasses.replace(rows.engine, translator=Translator(column(mass))), rows.places)
 
 
-def _columns(designs: Designs, orbits: Orbits, rtol: float) -> list[tuple[np.ndarray, Columns]]:
+def _columns(
+    designs: Designs, orbits: Orbits, rtol: float, multipliers: bool
+) -> list[tuple[np.ndarray, Columns]]:
     """Columns of orbits, as :func:`saleg.design.many.design_row` has the row of one."""
     lots = []
     for chosen, components in by_branch(
@@ -152,6 +161,8 @@ def _columns(designs: Designs, orbits: Orbits, rtol: float) -> list[tuple[np.nda
         steady = np.isin(status, [str(Status.STEADY), str(Status.IDLING)])
         for name in ("moving_mass", "power_density", "frequency_ratio"):
             columns[name] = np.where(steady, columns[name], math.nan)
+        if multipliers:
+            columns |= stability_columns(found, status)
         columns["score"] = scores(columns)
         agrees = np.abs(error) <= MASS_TOLERANCE * rtol
         if agrees.any():

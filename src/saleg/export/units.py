@@ -47,6 +47,13 @@ STROKE_UNITS = {
     "ignition_time": "s",
     "ignition_height": "m",
     "combustion_duration": "s",
+    "fresh_mass": "kg",
+    "closing_mass": "kg",
+    "supplied_mass": "kg",
+    "expelled_mass": "kg",
+    "expelled_fresh": "kg",
+    "crankcase_work": "J",
+    "wall_temperature": "K",
 }
 
 #: Words for the whole numbers in a column, by the column's name.

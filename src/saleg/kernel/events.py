@@ -2,6 +2,7 @@
 
 from math import exp, inf, isfinite, log1p, sqrt
 
+from saleg.kernel.breathing import breathes, dilution, mass_of, stands_open
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     BREAKPOINT,
@@ -14,7 +15,6 @@ from saleg.kernel.layout import (
     HEAD,
     IGNITION,
     LIGHT,
-    N_ALL,
     N_EVENTS,
     N_STATE,
     OPEN,
@@ -23,6 +23,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
+from saleg.kernel.needs import N_WANTED
 from saleg.kernel.rhs import ln_clearance_of, ln_temperature, rhs
 from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
@@ -84,7 +85,10 @@ def event_rate(E, C, event, y, dy):
         return dy[IGNITION + side]
     if event < HEAD:
         clearance = clearance_of(C, side, y[X])
-        return -c.beyond_breakpoint * (dy[THETA + side] + (1.0 - G0) * c.sign * y[V] / clearance)
+        rate = dy[THETA + side] + (1.0 - G0) * c.sign * y[V] / clearance
+        if breathes(C, side):
+            rate -= dilution(C, side, y, dy)
+        return -c.beyond_breakpoint * rate
     return -c.sign * y[V]
 
 
@@ -189,7 +193,9 @@ def carry(P, E, C, O, stages, t, s, ds, y, k, y_new):
     """Carry the end of a step of length `s` a little further, along the cubic through both ends."""
     end = k[stages]
     u, w = 1.0 + ds / s, -ds / s
-    for n in range(N_ALL):  # as an increment: what does not change stays as it is to the last bit
+    for n in range(
+        N_WANTED
+    ):  # as an increment: what does not change stays as it is to the last bit
         back = (1.0 + 2.0 * u) * (y[n] - y_new[n]) + u * s * k[0, n]
         y_new[n] += w * w * back - u * u * w * s * end[n]
     if O.peaks > 1 or O.history > 0:  # somebody looks at the rates there
@@ -273,7 +279,7 @@ def is_sound(C, y):
     states, quadratures = 0.0, 0.0  # two sums, not finite if any of their terms is not
     for n in range(N_STATE):
         states += y[n]
-    for n in range(N_STATE, N_ALL):
+    for n in range(N_STATE, N_WANTED):
         quadratures += y[n]
     sound = clearance_of(C, 0, y[X]) > 0.0 and clearance_of(C, 1, y[X]) > 0.0
     return sound and isfinite(states + quadratures)
@@ -299,7 +305,7 @@ def ln_pressure(C, side, x, theta):
 def pressure_and_temperature(C, side, y):
     """Pressure [Pa] and temperature [K] in a chamber, open or closed."""
     c = C[side]
-    if c.mode == OPEN:
+    if stands_open(C, side):
         return c.intake_pressure, c.intake_temperature
     p = exp(ln_pressure(C, side, y[X], y[THETA + side]))
-    return p, p * c.area * clearance_of(C, side, y[X]) / (c.mass * c.gas_constant)
+    return p, p * c.area * clearance_of(C, side, y[X]) / (mass_of(C, side, y) * c.gas_constant)

@@ -12,6 +12,7 @@ from saleg.laws.alternator import (
 from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
 from saleg.laws.base import (
     Alternator,
+    FlowExchange,
     Friction,
     GasExchange,
     GasProperties,
@@ -19,9 +20,12 @@ from saleg.laws.base import (
     HeatTransfer,
     Ignition,
     Law,
+    Leak,
     Misfires,
     Springs,
+    Supply,
     Validity,
+    Wall,
 )
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
@@ -46,7 +50,7 @@ from saleg.laws.friction import (
     NoFriction,
     ViscousFriction,
 )
-from saleg.laws.gas_exchange import InstantExchange
+from saleg.laws.gas_exchange import InstantExchange, PortFlow
 from saleg.laws.gas_properties import ChangGas, ConstantGamma
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
@@ -67,8 +71,11 @@ from saleg.laws.ignition import (
     SparkAtClearance,
     TabulatedDelay,
 )
+from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
 from saleg.laws.springs import EndStops, LinearSprings, PreloadedSprings, ProgressiveSprings
+from saleg.laws.supply import Crankcase, Plenum
+from saleg.laws.walls import FixedWall, LumpedWall
 
 accept_earlier_names()
 
@@ -92,9 +99,12 @@ __all__ = [
     "ConstantGamma",
     "CosineForce",
     "CoulombViscousFriction",
+    "Crankcase",
     "DoubleWiebe",
     "Drive",
     "EndStops",
+    "FixedWall",
+    "FlowExchange",
     "FluxProfile",
     "ForceMap",
     "Friction",
@@ -116,9 +126,12 @@ __all__ = [
     "InstantRelease",
     "IntakeControl",
     "Law",
+    "Leak",
     "LinearLoad",
     "LinearSprings",
     "LoadControl",
+    "LumpedWall",
+    "MakeUpValve",
     "Misfires",
     "Motion",
     "MotorControl",
@@ -126,8 +139,11 @@ __all__ = [
     "NoFriction",
     "NoFuel",
     "NoHeatTransfer",
+    "NoLeak",
     "NoMisfires",
+    "Plenum",
     "PolytropicLoss",
+    "PortFlow",
     "PowerDemand",
     "PreloadedSprings",
     "ProgressiveSprings",
@@ -136,6 +152,7 @@ __all__ = [
     "RatedFuel",
     "RatedIntake",
     "ResonanceSearch",
+    "RingLeak",
     "ScaledLoad",
     "ScheduledMisfires",
     "Signals",
@@ -147,9 +164,11 @@ __all__ = [
     "SteadyMotor",
     "Stroke",
     "StrokeRegulator",
+    "Supply",
     "TabulatedDelay",
     "Validity",
     "ViscousFriction",
+    "Wall",
     "Wiebe",
     "Woschni",
 ]
