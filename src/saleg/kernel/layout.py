@@ -4,7 +4,7 @@ import numpy as np
 
 from saleg.laws.arguments import Commands, Signals
 
-# Sides. As whole numbers of numpy's: for one of Python's own numba compiles a function anew per value.
+# Sides. Whole numbers of numpy's: for Python's own numba compiles each function once per value.
 LEFT = np.int64(0)
 RIGHT = np.int64(1)
 
