@@ -68,7 +68,8 @@ INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "differences", "run_plainly")
 #: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. A function first met in one
 #: that is folded into its callers would inherit that, if it were not told. Only entry points get
 #: wrappers for Python, which halves the time to compile. Nothing in a kernel allocates, so nothing
-#: need be counted (`_nrt`): counting references to the arrays took a third of the time.
+#: need be counted (`_nrt`): counting references to the arrays took a third of the time. What
+#: a module is loaded with says in `INNER` how those that are no entry points are compiled.
 COMPILED_HEADER = """\
 inline = numba.njit(
     forceinline=True,
@@ -76,6 +77,7 @@ inline = numba.njit(
     _nrt=False,
     no_cpython_wrapper=True,
     no_cfunc_wrapper=True,
+    pipeline_class=INNER,
 )
 compiled = numba.njit(
     forceinline=False,
@@ -83,6 +85,7 @@ compiled = numba.njit(
     _nrt=False,
     no_cpython_wrapper=True,
     no_cfunc_wrapper=True,
+    pipeline_class=INNER,
 )
 """
 #: What a module is loaded with says whether it is kept.

@@ -4,9 +4,9 @@ import numpy as np
 
 from saleg.laws.arguments import Commands, Signals
 
-# Sides.
-LEFT = 0
-RIGHT = 1
+# Sides. Whole numbers of numpy's: for Python's own numba compiles each function once per value.
+LEFT = np.int64(0)
+RIGHT = np.int64(1)
 
 # Modes of a chamber; they belong to the kernel, no law ever sees or sets them.
 OPEN = 0
