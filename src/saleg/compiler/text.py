@@ -51,6 +51,8 @@ INTEGRATOR = (
     "observe",
     "integrate",
 )
+#: Modules that make up the right-hand side of :mod:`saleg.reference`.
+REFERENCE = ("needs", "flow", "plain_breathing", "plain_rhs")
 #: The return map and the search for its fixed points: they use no law, and call the integrator by
 #: its address. Where numba has no addresses it is compiled into them.
 SEARCH = (
