@@ -207,9 +207,11 @@ def chamber_flows(P, C, side, y, gas):
     intake = flow_in(P, side, area_in, gas, g, R, supply.p, supply.T)
     exhaust = flow_in(P, side, area_out, gas, g, R, p_exhaust, T_exhaust)
     leak = flow_in(P, side, leak_area(P, side, gas), gas, g, R, p_leak, T_leak)
-    # Compositions: of the supply with its fuel metered at the ports, of what leaves, of the gas.
-    metered = c.equivalence_ratio_wanted / (c.equivalence_ratio_wanted + c.air_fuel_ratio)
-    fuel_share, burnt_share = metered * (1.0 - supply.burnt), (1.0 - metered) * supply.burnt
+    # Compositions: of the supply with fuel metered to its air at the ports, of what leaves, of the
+    # gas.
+    metered = c.equivalence_ratio_wanted * (1.0 - supply.burnt)
+    fuel_share = metered / (metered + c.air_fuel_ratio)
+    burnt_share = (1.0 - fuel_share) * supply.burnt
     fuel_out, burnt_out, fresh_out = 0.0, 0.0, 0.0
     if c.mode == OPEN:
         fuel_out, burnt_out, fresh_out = shares_leaving(
