@@ -22,15 +22,18 @@ from saleg.kernel.breathing import (
 from saleg.kernel.copies import motored_gas, with_pressure_rate
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    AIR,
     ALTERNATOR_IMPULSE,
     ALTERNATOR_WORK,
     BURNING,
+    BURNT,
     CLOSED,
     CURRENT,
     DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
     FRICTION_WORK,
+    FUEL,
     G0,
     GAS_WORK,
     HEAT_LOST,
@@ -152,14 +155,17 @@ def logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, constants):
 
 
 @inline
-def charge_of(E, C, side):
-    """Charge since port closing, as the laws see it."""
+def charge_of(E, C, side, y):
+    """Charge since port closing, as the laws see it; in a chamber that breathes, what is left."""
     c = C[side]
+    fuel, air, burnt = c.fuel, c.air, c.burnt
+    if breathes(C, side):
+        fuel, air, burnt = y[FUEL + side], y[AIR + side], y[BURNT + side]
     return Charge(
-        mass=c.mass,
-        fuel=c.fuel,
-        air=c.air,
-        burnt=c.burnt,
+        mass=mass_of(C, side, y),
+        fuel=fuel,
+        air=air,
+        burnt=burnt,
         equivalence_ratio=c.equivalence_ratio,
         p=c.p_closing,
         T=c.T_closing,
@@ -232,12 +238,14 @@ def chamber_rates(P, E, C, side, t, y, motored):
     ln_clearance = ln_clearance_of(C, side, y[X])
     ln_p = y[THETA + side] - G0 * ln_clearance
     p = p_motored = exp(ln_p)
-    if MOTORED_PRESSURE_IS_WANTED and motored:
+    if MOTORED_PRESSURE_IS_WANTED and motored and c.mode != OPEN:
         p_motored = exp(y[MOTORED + side] - G0 * ln_clearance)
     gas = gas_at(E, C, side, y, y[X], y[V], p, p_motored)
-    charge = charge_of(E, C, side)
+    charge = charge_of(E, C, side, y)
     released = heat_release(P, C, side, t, y)
     heat_constants = (c.heat_first, c.heat_second, c.heat_third)
+    if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:  # charge and wall change all the time
+        heat_constants = heat_transfer_coefficient_constants(P, side, gas, charge)
     ln_mass_gas = ln_mass_gas_of(C, side, y)
     logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, heat_constants)
     lost = heat_loss(P, C, side, gas, charge, logarithms)
@@ -250,15 +258,15 @@ def chamber_rates(P, E, C, side, t, y, motored):
         relative_rate = rate - G0 * clearance_rate / gas.clearance
         rising = with_pressure_rate(gas, gas.p * relative_rate)
         constants = (c.ignition_first, c.ignition_second, c.ignition_third)
+        if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:
+            constants = ignition_rate_constants(P, side, gas, charge)
         logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, constants)
         ignition = ignition_rate(P, side, rising, charge, logarithms)
     motored_rate = 0.0
     if MOTORED_PRESSURE_IS_WANTED and motored and c.mode != OPEN:
         ln_p_motored = y[MOTORED + side] - G0 * ln_clearance
-        cold = motored_gas(gas, gas.p_motored * gas.V * c.per_mass_gas)
-        logarithms = logarithms_of(
-            C, side, ln_clearance, ln_p_motored, c.ln_mass_gas, heat_constants
-        )
+        cold = motored_gas(gas, gas.p_motored * gas.V * per_mass_gas_of(C, side, y))
+        logarithms = logarithms_of(C, side, ln_clearance, ln_p_motored, ln_mass_gas, heat_constants)
         cooled = heat_loss(P, C, side, cold, charge, logarithms)
         motored_rate = theta_rate(P, side, cold, clearance_rate, -cooled)
     return ChamberRates(gas.p, rate, ignition, motored_rate, released, lost, flows)
@@ -407,7 +415,7 @@ def refresh(P, E, C, y):
         c.ln_breakpoint = log(breakpoint) if breakpoint > 0.0 else 0.0
         c.beyond_breakpoint = 1.0 if ln_temperature(C, side, y) > c.ln_breakpoint else -1.0
         gas = gas_at(E, C, side, y, 0.0, 0.0, 1.0, 1.0)  # of which only what stays the same is used
-        charge = charge_of(E, C, side)
+        charge = charge_of(E, C, side, y)
         heat = heat_transfer_coefficient_constants(P, side, gas, charge)
         c.heat_first, c.heat_second, c.heat_third = heat
         ignition = ignition_rate_constants(P, side, gas, charge)

@@ -150,7 +150,7 @@ def ignite(P, E, C, side, y, motored):
     """Start of combustion: the charge burns as far as fuel and air allow (Eq. 53)."""
     c = C[side]
     gas = gas_of(E, C, side, y, motored)
-    c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side))
+    c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side, y))
     c.mode = BURNING
     c.armed = DISARMED
     c.t_ignition = E.t
@@ -441,7 +441,7 @@ def change_due(P, E, C, side, y):
         return EVENT_CHARGE_RENEWAL
     if misfires(E, C, side):
         lit = c.armed == ARMED
-        if lit and ignition_lights_at_dead_centre(P, side, charge_of(E, C, side)) > 0.0:
+        if lit and ignition_lights_at_dead_centre(P, side, charge_of(E, C, side, y)) > 0.0:
             return EVENT_IGNITION
         return EVENT_MISFIRE
     if c.mode == CLOSED and c.armed > DISARMED and y[IGNITION + side] >= 1.0:

@@ -211,7 +211,10 @@ class RunningEngine:
         c = self.chambers[side]
         if c.breathes:
             p, volume = float(self.y[PRESSURE + side]), c.area * self.clearance(side)
-            self._set_state(side, p, p * volume / (c.mass * c.gas_constant))
+            T = p * volume / (c.mass * c.gas_constant)
+            self._set_state(
+                side, p, c.intake_temperature if is_held_open(self.chambers, side) else T
+            )
         if c.wall_follows:
             self.y[layout.WALL + side] = c.wall_temperature
         if c.crankcase:
@@ -404,20 +407,6 @@ class RunningEngine:
         if c.breathes:  # what has leaked is made good
             c.mass = c.mass_trapped
         T = p * c.area * self.clearance(side) / (c.mass * c.gas_constant)
-        self._compose(side, p, T)
-        self.totals[side].exhaust_energy += before - self.internal_energy(side)
-
-    def renew_charge(self, side: int) -> None:
-        """Put a fresh charge of the same mass on the curve through the midpoint state."""
-        c, chamber = self.chambers[side], self.engine.chambers[side]
-        assert isinstance(chamber, SealedCylinder)
-        if c.mode == layout.BURNING:
-            self.end_combustion(side)
-        self.renewal_due.discard(side)
-        before = self.internal_energy(side)
-        p = chamber.pressure * (self.clearance(side) / c.half_stroke) ** -chamber.curve_exponent
-        T = p * c.area * self.clearance(side) / (c.mass_trapped * c.gas_constant)
-        c.mass = c.mass_trapped
         self._compose(side, p, T)
         self.totals[side].exhaust_energy += before - self.internal_energy(side)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
-from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, is_held_open
+from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, is_held_open, mass_in
 from saleg.kernel.plain_rhs import (
     ALTERNATOR_CURRENT,
     INTEGRAL,
@@ -340,11 +340,14 @@ def _greatest(falling: Callable[[float], float], low: float, high: float) -> flo
 def watched(running: RunningEngine, y: np.ndarray, dy: np.ndarray) -> np.ndarray:
     """Quantities whose greatest values are kept, in the order of the layout."""
     values = np.zeros(layout.N_PEAKS)
-    for side in (0, 1):
+    for side, c in enumerate(running.chambers):
         p = pressure_in(running.engine, running.chambers, side, y)
         gas = gas_in(running.machine, running.chambers, side, y, p)
-        T = running.temperature(side) if is_held_open(running.chambers, side) else gas.T
         rise = pressure_rate_in(running.engine, running.chambers, side, gas, y, dy)
+        mass = mass_in(running.chambers, side, y)
+        T = p * c.area * (c.half_stroke + c.sign * y[POSITION]) / (mass * c.gas_constant)
+        if is_held_open(running.chambers, side):
+            T = running.temperature(side)
         values[layout.PEAK_PRESSURE + side] = p
         values[layout.PEAK_TEMPERATURE + side] = T
         values[layout.PEAK_PRESSURE_RISE + side] = rise
