@@ -58,6 +58,8 @@ from saleg.kernel.slots import (
 # has logarithms of their pressures, all other states where it has them too.
 ENERGY = THETA
 CRANKCASE_ENERGY = CRANKCASE_THETA
+# Temperature below which none is looked for [K].
+COLDEST = 1e-3
 
 
 class Shares(NamedTuple):
@@ -113,14 +115,19 @@ def wall_temperature_of(C, side, y):
 
 @inline
 def temperature_at(P, side, u, R):
-    """Temperature at which the gas has a specific internal energy [K], by Newton's method."""
+    """Temperature at which the gas has a specific internal energy [K], by Newton's method.
+
+    0 for an energy that no gas has, though a solver may try it.
+    """
     T = 1000.0
     for _ in range(50):
         heat_capacity = R / (gas_properties_gamma(P, side, T) - 1.0)
         change = (u - gas_properties_internal_energy(P, side, T)) / heat_capacity
-        T += change
+        T = max(T + change, 0.1 * T)
         if abs(change) <= 1e-14 * T:
-            break
+            return T
+        if T < COLDEST:
+            return 0.0
     return T
 
 
@@ -203,6 +210,14 @@ def gas_in_crankcase(P, C, side, y):
     R, mass = C[side].gas_constant, y[CRANKCASE_MASS + side]
     T = temperature_at(P, side, y[CRANKCASE_ENERGY + side] / mass, R)
     return space_at(P, side, mass * R * T / volume_of_crankcase(P, C, side, y[X]), T, R)
+
+
+@inline
+def has_real_crankcase(P, C, side, y):
+    """Whether mass and energy of a crankcase, if there is one, are those of a gas."""
+    if not has_crankcase(C, side):
+        return True
+    return y[CRANKCASE_MASS + side] > 0.0 and gas_in_crankcase(P, C, side, y).T > 0.0
 
 
 @inline

@@ -19,7 +19,6 @@ from saleg.kernel.layout import (
     BURNING,
     BURNT,
     CLOSED,
-    CRANKCASE_MASS,
     DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
@@ -37,6 +36,7 @@ from saleg.kernel.plain_breathing import (
     burn,
     exchange_gas,
     has_crankcase,
+    has_real_crankcase,
     is_held_open,
     is_open_system,
     mass_in,
@@ -216,14 +216,14 @@ def translator(P, E, C, t, y, p_left, p_right, dy):
 
 
 @inline
-def is_physical(C, y):
+def is_physical(P, C, y):
     """Whether all volumes, masses and pressures are positive; a solver may try others."""
     for side in range(2):
         if not C[side].half_stroke + C[side].sign * y[POSITION] > 0.0:
             return False
-        if has_crankcase(C, side) and not y[CRANKCASE_MASS + side] > 0.0:
-            return False
         if not (mass_in(C, side, y) > 0.0 and y[MOTORED_PRESSURE + side] > 0.0):
+            return False
+        if not (pressure_in(P, C, side, y) > 0.0 and has_real_crankcase(P, C, side, y)):
             return False
     return True
 
@@ -231,14 +231,12 @@ def is_physical(C, y):
 @compiled
 def rates(P, E, C, t, y, dy):
     """Write the rates of the state `y` and of all quadratures into `dy`."""
-    physical, p_left, p_right = is_physical(C, y), 0.0, 0.0
-    if physical:
-        p_left, p_right = pressure_in(P, C, 0, y), pressure_in(P, C, 1, y)
-        physical = p_left > 0.0 and p_right > 0.0
+    physical = is_physical(P, C, y)
     for n in range(len(dy)):
         dy[n] = 0.0 if physical else nan
     if not physical:
         return
+    p_left, p_right = pressure_in(P, C, 0, y), pressure_in(P, C, 1, y)
     translator(P, E, C, t, y, p_left, p_right, dy)
     for side in range(2):
         p = p_left if side == 0 else p_right
