@@ -13,12 +13,7 @@ import numpy as np
 
 from saleg.engine import CombustionChamber, Cylinder, Engine, SealedCylinder
 from saleg.kernel import layout
-from saleg.kernel.plain_breathing import (
-    CRANKCASE_ENERGY,
-    ENERGY,
-    is_held_open,
-    volume_of_crankcase,
-)
+from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, ENERGY, is_held_open
 from saleg.kernel.plain_rhs import (
     INTEGRAL,
     MOTORED_PRESSURE,
@@ -32,6 +27,14 @@ from saleg.kernel.plain_rhs import (
     rates,
 )
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+from saleg.reference.contents import (
+    fill,
+    put_masses,
+    put_state,
+    supplied_energy,
+    take_contents,
+    write_passed,
+)
 from saleg.reference.states import (
     ChamberState,
     EngineState,
@@ -119,7 +122,7 @@ class RunningEngine:
         x = start.x if start.at_dead_centre else math.nan
         self = cls(engine, 0.0, y, machine, chambers, totals, x)
         for side in (0, 1):
-            self._fill(side)
+            fill(engine, chambers, y, side)
         self._hold(stroke_before(engine, start, self.piston_area))
         for side, held in enumerate(contents):
             if held.burning and held.fuel > 0.0:
@@ -204,55 +207,11 @@ class RunningEngine:
         x, v = float(self.y[POSITION]), float(self.y[VELOCITY])
         self.events.append((self.t, kind, side, x, v, self.pressure(side), self.temperature(side)))
 
-    # What stands in a chamber, in the state and beside it.
-
-    def _fill(self, side: int) -> None:
-        """Put what a chamber holds at the start into the states its laws ask for."""
-        c = self.chambers[side]
-        if c.breathes:
-            p, volume = float(self.y[PRESSURE + side]), c.area * self.clearance(side)
-            T = p * volume / (c.mass * c.gas_constant)
-            self._set_state(
-                side, p, c.intake_temperature if is_held_open(self.chambers, side) else T
-            )
-        if c.wall_follows:
-            self.y[layout.WALL + side] = c.wall_temperature
-        if c.crankcase:
-            volume = volume_of_crankcase(self.engine, self.chambers, side, self.y[POSITION])
-            mass = c.intake_pressure * volume / (c.gas_constant * c.intake_temperature)
-            self.y[layout.CRANKCASE_MASS + side] = mass
-            energy = self._specific_energy(side, c.intake_temperature)
-            self.y[CRANKCASE_ENERGY + side] = mass * energy
-
-    def _specific_energy(self, side: int, T: float) -> float:
-        """Specific internal energy of the gas at a temperature [J/kg]."""
-        law = self.engine.chambers[side].gas_properties  # type: ignore[attr-defined]
-        return float(law.internal_energy(T))
-
-    def _set_state(self, side: int, p: float, T: float) -> None:
-        """Give the charge of a chamber a pressure and a temperature."""
-        c = self.chambers[side]
-        self.y[[PRESSURE + side, MOTORED_PRESSURE + side]] = p
-        if c.breathes:
-            first = layout.FUEL + side
-            self.y[first : first + 6 : 2] = c.fuel, c.air, c.burnt
-            self.y[ENERGY + side] = c.mass * self._specific_energy(side, T)
-
-    def take_contents(self) -> None:
-        """Bring what stands beside the state up to date with it."""
-        for side, c in enumerate(self.chambers):
-            if c.breathes:
-                first = layout.FUEL + side
-                c.fuel, c.air, c.burnt = self.y[first : first + 6 : 2].tolist()
-                c.mass = c.fuel + c.air + c.burnt
-            if c.wall_follows:
-                c.wall_temperature = float(self.y[layout.WALL + side])
-
     # Changes of a chamber.
 
     def change_chambers(self) -> None:
         """Carry out all changes that are due, one after the other."""
-        self.take_contents()
+        take_contents(self.chambers, self.y)
         for side in (0, 1):
             while self._change(side):
                 pass
@@ -361,8 +320,7 @@ class RunningEngine:
         c.fuel, c.air, c.burnt = c.fuel - fuel, c.air - air, c.burnt + fuel + air
         c.mode = layout.CLOSED
         if c.breathes:
-            first = layout.FUEL + side
-            self.y[first : first + 6 : 2] = c.fuel, c.air, c.burnt
+            put_masses(c, self.y, side)
 
     def open_ports(self, side: int) -> None:
         """Pressure and temperature become those of the intake, or gas begins to flow."""
@@ -376,7 +334,7 @@ class RunningEngine:
         if c.by_flow:
             self.y[layout.FRESH + side] = 0.0
             return
-        self._set_state(side, chamber.intake.pressure, chamber.intake.temperature)
+        put_state(chamber, c, self.y, side, chamber.intake.pressure, chamber.intake.temperature)
         self.totals[side].exhaust_energy += before - self.internal_energy(side)
 
     def close_ports(self, side: int) -> None:
@@ -418,7 +376,7 @@ class RunningEngine:
         c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
             c.mass, c.fuel, c.air, c.burnt, chamber.equivalence_ratio, ratio
         )
-        self._set_state(side, p, T)
+        put_state(chamber, c, self.y, side, p, T)
         self._trap(side, p, T)
         exhausted = fuel_before + fresh - c.fuel
         totals.fresh_fuel_energy += fresh * chamber.fuel.lower_heating_value
@@ -441,7 +399,7 @@ class RunningEngine:
 
     def turn(self) -> None:
         """Dead centre: write the row of the stroke, let the regulators act, turn around."""
-        self.take_contents()
+        take_contents(self.chambers, self.y)
         if math.isfinite(self.x_dead_centre) and self.t > self.t_dead_centre:
             self.strokes.append(self._stroke_row())
             self._regulate()
@@ -462,7 +420,7 @@ class RunningEngine:
     def _regulate(self) -> None:
         """Hand the finished stroke to the laws that act at a dead centre."""
         fuel = sum(totals.fresh_fuel_energy for totals in self.totals)
-        fuel += self._supplied_energy(0) + self._supplied_energy(1)
+        fuel += sum(supplied_energy(c, self.y, side) for side, c in enumerate(self.chambers))
         squared = float(self.y[QUADRATURES + layout.SPEED_SQUARED])
         stroke = Stroke(
             length=abs(float(self.y[POSITION]) - self.x_dead_centre),
@@ -513,29 +471,8 @@ class RunningEngine:
             row["internal_energy"][0, side] = self.internal_energy(side)
             row["fuel_energy"][0, side] = self._fuel_energy(side)
             if c.breathes:
-                self._write_passed(side, row[0])
+                write_passed(c, self.y, side, row[0])
         return row
-
-    def _write_passed(self, side: int, row: Any) -> None:
-        """Write what has passed through a chamber that breathes into the row of a stroke."""
-        c, y = self.chambers[side], self.y
-        row["fresh_fuel_energy"][side] += y[layout.SUPPLIED_FUEL + side] * c.lower_heating_value
-        row["exhaust_fuel_energy"][side] += y[layout.EXPELLED_FUEL + side] * c.lower_heating_value
-        row["exhaust_energy"][side] += y[layout.ENTHALPY_OUT + side]
-        row["fresh_mass"][side] = c.fresh
-        row["closing_mass"][side] = c.mass_trapped
-        row["closing_temperature"][side] = c.T_closing
-        row["supplied_mass"][side] = y[layout.SUPPLIED + side]
-        row["expelled_mass"][side] = y[layout.EXPELLED + side]
-        row["expelled_fresh"][side] = y[layout.EXPELLED_FRESH + side]
-        row["crankcase_work"][side] = y[layout.CRANKCASE_WORK + side]
-
-    def _supplied_energy(self, side: int) -> float:
-        """Lower heating value of the fuel that has flowed in since the dead centre [J]."""
-        c = self.chambers[side]
-        if not c.by_flow:
-            return 0.0
-        return float(self.y[layout.SUPPLIED_FUEL + side] * c.lower_heating_value)
 
     def _fuel_energy(self, side: int) -> float:
         """Lower heating value of the unburnt fuel in a chamber [J]."""
