@@ -52,8 +52,13 @@ lengths = {
     "head_gap": st.floats(1e-6, 1e-3),
     "port_closing": st.floats(2e-3, 0.019),
 }
+exchange = st.one_of(
+    instances(saleg.laws.InstantExchange),
+    instances(saleg.laws.PortFlow, intake_delay=st.floats(0.0, 9e-4)),
+)
+plenum = st.just(saleg.laws.Plenum())  # a crankcase has to fit: tests/breathing
 chambers = st.one_of(
-    instances(Cylinder, **lengths),
+    instances(Cylinder, **lengths, gas_exchange=exchange, supply=plenum),
     *(
         instances(kind, half_stroke=lengths["half_stroke"], head_gap=lengths["head_gap"])
         for kind in (SealedCylinder, BounceChamber)

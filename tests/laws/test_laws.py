@@ -336,6 +336,8 @@ def test_hotter_and_denser_ignites_no_later(law):
 
 @of_slot("gas_exchange")
 def test_mass_is_conserved_and_the_ratio_met(law):
+    if isinstance(law, laws.FlowExchange):  # composes no charge: tests/breathing
+        return
     fuel, air, burnt, fresh = law.charge(5e-4, 1e-6, 2e-4, 3e-4, 0.6, 17.5)
     assert fuel + air + burnt == pytest.approx(5e-4, rel=1e-14)
     assert fuel * 17.5 / air == pytest.approx(0.6, rel=1e-12)

@@ -57,8 +57,8 @@ CRANKCASE_THETA = 33
 CRANKCASE_MASS = 35
 CRANKCASE_BURNT = 37
 # What has passed since the dead centre, left and right: mass and fuel in through the intake; mass,
-# fuel and fresh gas out, back into the intake too [kg]; enthalpy out, less that in, and work of the
-# crankcase [J].
+# fuel and fresh gas out, back into the intake too [kg]; enthalpy out, less that in, and work of
+# the crankcase [J].
 SUPPLIED = 39
 SUPPLIED_FUEL = 41
 EXPELLED = 43

@@ -36,8 +36,10 @@ class Crankcase(Supply):
 
     states: ClassVar[tuple[str, ...]] = ("contents", "crankcase")
 
-    volume_at_midpoint: float = quantity("m^3", low=0, open_low=True, usual=(1e-8, 1.0))
-    area: float = quantity("m^2", low=0, usual=(1e-6, 1.0))
+    volume_at_midpoint: float = quantity(
+        "m^3", default=6e-4, low=0, open_low=True, usual=(1e-8, 1.0)
+    )
+    area: float = quantity("m^2", default=3e-3, low=0, usual=(1e-6, 1.0))
     reed: float = quantity("m^2", default=3e-4, low=0, usual=AREA)
     lift_pressure: float = quantity("Pa", default=2e3, low=0, open_low=True, usual=(10.0, 1e6))
 

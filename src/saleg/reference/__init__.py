@@ -1,8 +1,8 @@
 """The same engine through ``scipy.integrate.solve_ivp``: an independent check of the integrator.
 
 Laws, starts and results are shared; equations, events, switching, masses and energies are written
-once more, in pressure instead of the integrator's own variables, with no other aim than to be
-plain. See :func:`simulate`.
+once more, in pressure instead of the integrator's own variables (in energy and masses where a
+chamber breathes), with no other aim than to be plain. See :func:`simulate`.
 """
 
 from __future__ import annotations

@@ -25,9 +25,9 @@ def fill(engine: Engine, chambers: Sequence[ChamberState], y: np.ndarray, side: 
     if c.breathes:
         p, volume = float(y[PRESSURE + side]), c.area * (c.half_stroke + c.sign * y[POSITION])
         T = p * volume / (c.mass * c.gas_constant)
-        put_state(
-            chamber, c, y, side, p, c.intake_temperature if is_held_open(chambers, side) else T
-        )
+        if is_held_open(chambers, side):
+            T = c.intake_temperature
+        put_state(chamber, c, y, side, p, T)
     if c.wall_follows:
         y[layout.WALL + side] = c.wall_temperature
     if c.crankcase:

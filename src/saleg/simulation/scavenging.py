@@ -79,5 +79,5 @@ def scavenging_of(engine: Engine, cycle: np.ndarray, side: int) -> Scavenging | 
             trapped_mass=trapped,
             trapped_temperature=float(cycle["closing_temperature"][-1, side]),
             short_circuited=float(cycle["expelled_fresh"][:, side].sum()),
-            pumping_work=-float(cycle["crankcase_work"][:, side].sum()),
+            pumping_work=0.0 - float(cycle["crankcase_work"][:, side].sum()),
         )

@@ -34,6 +34,7 @@ from saleg.simulation.outcome import (
 )
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
+from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
@@ -153,6 +154,14 @@ class SteadyState:
             return Performance.of_nothing(self.engine)
         history = None if self.orbit is None else self.orbit.history_rows
         return Performance.of_cycle(self.engine, self.strokes, self.strokes, history)
+
+    @cached_property
+    def scavenging(self) -> tuple[Scavenging | None, Scavenging | None]:
+        """Gas exchange of the left and the right cylinder, as of a run."""
+        if not len(self.strokes):
+            return None, None
+        left, right = (scavenging_of(self.engine, self.strokes, side) for side in (0, 1))
+        return left, right
 
     @property
     def plot(self) -> Plots:
