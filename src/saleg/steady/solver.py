@@ -50,6 +50,9 @@ DEFAULT_TOLERANCE = 1e-6
 MAX_MAPS = 60
 #: Residual of the map a steady state may have, over the tolerance of the integrator.
 RESIDUAL = 1.0
+#: Tolerance of the steps of an engine that breathes, over that of the map, and the least there is.
+FINER_WITH_CORNERS = 1e-3
+FINEST_WITH_CORNERS = 1e-12
 #: Residual of the verifying cycle beyond which a fixed point does not count, over the tolerance:
 #: an unstable one grows away from itself.
 MAX_MISSED = 100.0
@@ -379,14 +382,15 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
         if not converged(found, rtol):
             continue
         return_map.begin_on_the_left()
-        if not is_sharp(return_map, found, steps):
-            sharper = return_map.finer(finer(steps))
+        if not is_sharp(return_map, found, rtol):
+            steps = step_tolerance(engine, finer(rtol))
+            sharper = return_map.finer(steps)
             again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
             spent += strokes
             evaluations += sharper.evaluations - return_map.evaluations
             if not converged(again, finer(rtol)):
                 continue
-            return_map, found, steps = sharper, again, finer(steps)
+            return_map, found = sharper, again
         return result_of(return_map, spent, evaluations, found.missed, "fixed point", steps)
     if quick:
         return not_found(engine, spent, evaluations, "no orbit from the standard starts")
@@ -397,9 +401,10 @@ def step_tolerance(engine: Engine, rtol: float) -> float:
     """Tolerance of the steps of a return map.
 
     Valves that lift and flows that turn are corners at which no step ends: the image scatters by
-    some tens of the tolerance where an engine breathes.
+    some hundred times the tolerance where an engine breathes.
     """
-    return finer(rtol) if any(chamber.states for chamber in engine.chambers) else rtol
+    breathes = any(chamber.states for chamber in engine.chambers)
+    return max(FINER_WITH_CORNERS * rtol, FINEST_WITH_CORNERS) if breathes else rtol
 
 
 def starts(engine: Engine) -> Iterator[Start]:
