@@ -115,6 +115,8 @@ def test_a_single_piston_engine_with_crankcase_and_walls_is_solved(crankcase):
     steady, run = saleg.steady_state(crankcase), saleg.simulate(crankcase, 40.0)
     assert steady.status is Status.STEADY, steady.message
     assert steady.performance.power == pytest.approx(run.performance.power, rel=1e-5)
+    assert steady.stable
+    assert not np.isclose(steady.multipliers, 1.0, atol=1e-9).any()
     wall = steady.strokes["wall_temperature"].mean(axis=0)[0]
     heat = steady.strokes["heat_lost"].sum(axis=0)[0] * steady.performance.frequency
     law = crankcase.left.wall

@@ -189,4 +189,6 @@ def _final_state(running: RunningEngine) -> State:
     E["direction"], E["t_dead_centre"] = running.machine.direction, running.t_dead_centre
     E["length_scale"] = 0.5 * running.engine.maximum_stroke
     E["speed_scale"] = natural_speed(running)
-    return State(E, np.zeros(2, layout.CHAMBER_RECORD), running.y, running.peaks)
+    y = np.zeros(layout.N_ALL)
+    y[: len(running.y)] = running.y
+    return State(E, np.zeros(2, layout.CHAMBER_RECORD), y, running.peaks)

@@ -16,7 +16,7 @@ import numpy as np
 from saleg.compiler import search
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.compiler.kernel import Kernel
-from saleg.engine import Chamber, Engine
+from saleg.engine import BounceChamber, Chamber, Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.differences import Differences
 from saleg.kernel.orbit import (
@@ -36,6 +36,7 @@ from saleg.kernel.orbit import (
     Z_LN_MASS_MOVING,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
+    Z_RATIO,
     Z_TO_BURN,
     Z_WALL,
     mirror,
@@ -382,6 +383,8 @@ def constant_entries(engine: Engine) -> set[int]:
         if chamber.is_sealed:
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
             kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED, first + Z_WALL}
+        elif isinstance(chamber, BounceChamber):  # gas flows, but no charge is composed
+            kept |= {first + Z_INTEGRAL, first + Z_RATIO}
         if not engine.needs_motored_pressure:
             kept.add(first + Z_LN_MOTORED)
     return kept | unused_entries(engine)
