@@ -347,8 +347,8 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
 
 #: Modules of the kernel the emulation is composed of.
 DELAYED = (
-    *("needs", "rhs", "general", "adaptive", "step", "events", "peaks", "control", "switch"),
-    "delayed",
+    *("needs", "flow", "breathing", "rhs", "general", "adaptive", "step", "events", "peaks"),
+    *("control", "switch", "delayed"),
 )
 
 
