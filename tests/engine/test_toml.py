@@ -2,7 +2,7 @@ import dataclasses
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import saleg
@@ -90,6 +90,7 @@ def write(tmp_path):
     return written
 
 
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(engine=engines())
 def test_any_engine_comes_back_exactly(tmp_path_factory, engine):
     path = tmp_path_factory.getbasetemp() / "random.toml"
