@@ -33,7 +33,7 @@ class LumpedWall(Wall):
     Examples
     --------
     >>> LumpedWall(heat_capacity=100.0, conductance=2.0).temperature_rate(450.0, 150.0)
-    -0.9
+    -0.3
     """
 
     states: ClassVar[tuple[str, ...]] = ("wall_temperature",)
