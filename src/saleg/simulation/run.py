@@ -172,15 +172,12 @@ class Run:
         return EnergyBalance.between(self.strokes[start - 1], self.strokes[start : start + 2])
 
     @cached_property
-    def scavenging(self) -> tuple[Scavenging | None, Scavenging | None]:
+    def scavenging(self) -> tuple[Scavenging, Scavenging]:
         """Gas exchange of the left and the right cylinder in the last full cycle.
 
-        None for a chamber whose ports let no gas flow, and without a full cycle.
+        NaN for a chamber whose ports let no gas flow, and without a full cycle.
         """
-        cycle = self.last_cycle_strokes
-        if cycle is None:
-            return None, None
-        return scavenging_of(self.engine, cycle, 0), scavenging_of(self.engine, cycle, 1)
+        return scavenging_of(self.engine, self.last_cycle_strokes)
 
     @property
     def plot(self) -> Plots:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -14,7 +15,8 @@ class Scavenging:
     """Gas exchange of one cylinder over a cycle.
 
     The reference mass is that of a fresh charge at the state of the intake that fills the cylinder
-    as its ports close (Heywood, section 6.6, with that volume for the displaced one).
+    as its ports close (Heywood, section 6.6, with that volume for the displaced one). NaN for a
+    chamber whose ports let no gas flow, and without a cycle.
 
     Attributes
     ----------
@@ -49,20 +51,26 @@ class Scavenging:
     pumping_work: float
 
 
-def scavenging_of(engine: Engine, cycle: np.ndarray, side: int) -> Scavenging | None:
-    """Gas exchange of a cylinder, None for a chamber whose ports let no gas flow.
+def scavenging_of(engine: Engine, cycle: np.ndarray | None) -> tuple[Scavenging, Scavenging]:
+    """Gas exchange of the left and the right chamber.
 
     Parameters
     ----------
     engine : Engine
     cycle : ndarray of STROKE_RECORD, shape (2,)
-        Strokes of a cycle.
-    side : int
-        0 for left, 1 for right.
+        Strokes of a cycle; None if there is none.
     """
+    return _of_side(engine, cycle, 0), _of_side(engine, cycle, 1)
+
+
+def _of_side(engine: Engine, cycle: np.ndarray | None, side: int) -> Scavenging:
     cylinder = engine.chambers[side]
-    if not isinstance(cylinder, Cylinder) or "contents" not in cylinder.gas_exchange.states:
-        return None
+    if (
+        cycle is None
+        or not isinstance(cylinder, Cylinder)
+        or "contents" not in cylinder.gas_exchange.states
+    ):
+        return Scavenging(**{item.name: math.nan for item in fields(Scavenging)})
     full = cylinder.reference_state
     density = full.pressure / (cylinder.gas_properties.gas_constant * full.temperature)
     reference = density * cylinder.area * full.clearance

@@ -159,12 +159,9 @@ class SteadyState:
         return Performance.of_cycle(self.engine, self.strokes, self.strokes, history)
 
     @cached_property
-    def scavenging(self) -> tuple[Scavenging | None, Scavenging | None]:
+    def scavenging(self) -> tuple[Scavenging, Scavenging]:
         """Gas exchange of the left and the right cylinder, as of a run."""
-        if not len(self.strokes):
-            return None, None
-        left, right = (scavenging_of(self.engine, self.strokes, side) for side in (0, 1))
-        return left, right
+        return scavenging_of(self.engine, self.strokes if len(self.strokes) else None)
 
     @property
     def plot(self) -> Plots:
