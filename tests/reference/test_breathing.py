@@ -7,6 +7,7 @@ import pytest
 
 import saleg
 from agreement import ORBIT_ONLY, assert_agree, assert_balanced, assert_rows_agree
+from breathing_engines import single_piston
 from saleg import laws, reference
 
 PORTS = laws.PortFlow(
@@ -30,26 +31,7 @@ def boosted(base):
 @pytest.fixture(scope="module")
 def single(base):
     """Cylinder with crankcase, leaking rings and a wall that follows; a leaking gas spring."""
-    cylinder = dataclasses.replace(
-        base.left,
-        gas_exchange=PORTS,
-        supply=laws.Crankcase(volume_at_midpoint=6e-4, area=4e-3, reed=6e-4),
-        leak=laws.RingLeak(gap=3e-7),
-        wall=laws.LumpedWall(heat_capacity=2.0, conductance=20.0),
-    )
-    bounce = saleg.BounceChamber(
-        bore=0.064,
-        half_stroke=0.1,
-        pressure=2.5e5,
-        leak=laws.MakeUpValve(valve=2e-6, gap=1e-7, pressure=2e5),
-    )
-    return saleg.Engine(
-        translator=saleg.Translator(mass=2.4),
-        left=cylinder,
-        right=bounce,
-        springs=laws.LinearSprings(stiffness=20e3),
-        alternator=laws.LinearLoad(load_constant=12.0),
-    )
+    return single_piston(base, PORTS)
 
 
 def compare(engine, duration):
@@ -67,7 +49,7 @@ def compare(engine, duration):
 
 def test_ports_with_a_charged_intake_agree(boosted):
     check = compare(boosted, 0.06)
-    assert check.strokes["supplied_mass"].min(axis=0).max() >= 0.0
+    assert check.strokes["supplied_mass"].max(axis=0).min() > 2e-4
     assert check.strokes["fresh_mass"][-1].min() > 2e-4
 
 

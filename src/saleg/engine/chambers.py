@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 from saleg.laws import (
@@ -143,7 +144,7 @@ class Chamber(Quantities):
         """Laws of the chamber by slot; only a chamber that burns fuel has laws of combustion."""
         return {slot: getattr(self, slot) for slot in CHAMBER_SLOTS if hasattr(self, slot)}
 
-    @property
+    @cached_property
     def states(self) -> frozenset[str]:
         """States its laws ask for, beside pressure: see :attr:`saleg.laws.Law.states`."""
         return frozenset(name for law in self.laws.values() for name in law.states)

@@ -117,7 +117,7 @@ class Flows(NamedTuple):
     ----------
     ln_p : float
         Their part in the rate of the logarithm of the pressure [1/s].
-    mass, fuel, air, burnt, fresh : float
+    fuel, air, burnt, fresh : float
         Rates of the contents, combustion left out [kg/s].
     supplied, supplied_fuel, expelled, expelled_fuel, expelled_fresh : float
         In through the intake; out, back into the intake too, less what comes back [kg/s].
@@ -128,7 +128,6 @@ class Flows(NamedTuple):
     """
 
     ln_p: float
-    mass: float
     fuel: float
     air: float
     burnt: float
@@ -147,7 +146,7 @@ class Flows(NamedTuple):
 @inline
 def no_flows():
     """Flows of a tight chamber."""
-    return Flows(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return Flows(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @inline
@@ -236,7 +235,6 @@ def chamber_flows(P, C, side, y, gas):
     from_supply = 1.0 - fuel_share
     return Flows(
         ln_p=net / mass + (g - 1.0) * heat / (gas.p * gas.V),
-        mass=net,
         fuel=fuel,
         air=net - fuel - burnt,
         burnt=burnt,

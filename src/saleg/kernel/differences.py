@@ -2,10 +2,9 @@
 
 from typing import Any, NamedTuple
 
-from saleg.kernel.jit import cached, compiled, inline
-from saleg.kernel.layout import END_OF_TIME, N_ALL, N_PEAKS, N_VECTOR
-from saleg.kernel.orbit import image_of
-from saleg.kernel.state import copy_row
+from saleg.kernel.jit import cached, compiled
+from saleg.kernel.layout import END_OF_TIME, N_VECTOR
+from saleg.kernel.orbit import image_of, take_state
 
 
 class Differences(NamedTuple):
@@ -42,23 +41,10 @@ class Differences(NamedTuple):
     codes: Any
 
 
-@inline
-def go_to(differences, row, run):
-    """Copy the state of an engine into the return map."""
-    copy_row(run.engine, 0, differences.engine, row)
-    for side in range(2):
-        copy_row(run.chambers, side, differences.chambers, 2 * row + side)
-    for n in range(N_ALL):
-        run.y[n] = differences.y[row, n]
-    for n in range(N_PEAKS):
-        run.peaks[n] = 0.0
-    run.options[0].longest = differences.longest[row]
-
-
 @compiled
 def image_beside(differences, row, mapping, entry, change, iterates):
     """Image of the vector of an engine with one entry changed; why the integrator came back."""
-    go_to(differences, row, mapping.integration)
+    take_state(differences, row, mapping.integration)
     for n in range(N_VECTOR):
         iterates.point[n] = differences.points[row, n]
     iterates.point[entry] += change

@@ -22,6 +22,8 @@ from saleg.kernel.layout import (
     FUEL,
     IGNITION,
     MOTORED,
+    N_ALL,
+    N_PEAKS,
     N_VECTOR,
     NO_DEAD_CENTRE,
     NOT_FOUND,
@@ -34,7 +36,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.run_plainly import run_at
-from saleg.kernel.state import begin_stroke, keep_snapshot
+from saleg.kernel.state import begin_stroke, copy_row, keep_snapshot
 
 # What do_orbit is asked for.
 FIND = 0
@@ -186,6 +188,22 @@ def mirror(E, C, y, words):
     y[X], y[V], y[CURRENT] = -y[X], -y[V], -y[CURRENT]
     E.x_dead_centre = -E.x_dead_centre
     E.direction = -E.direction
+
+
+@inline
+def take_state(held, row, run):
+    """Copy the state of one of many engines into the arguments of the integrator.
+
+    `held` are searches or differences: both hold engines, chambers, states and longest times.
+    """
+    copy_row(run.engine, 0, held.engine, row)
+    for side in range(2):
+        copy_row(run.chambers, side, held.chambers, 2 * row + side)
+    for n in range(N_ALL):
+        run.y[n] = held.y[row, n]
+    for n in range(N_PEAKS):
+        run.peaks[n] = 0.0
+    run.options[0].longest = held.longest[row]
 
 
 @inline

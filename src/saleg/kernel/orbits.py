@@ -9,7 +9,7 @@ from math import inf
 from typing import Any, NamedTuple
 
 from saleg.kernel.jit import cached, compiled, inline
-from saleg.kernel.layout import END_OF_TIME, N_ALL, N_PEAKS, N_VECTOR
+from saleg.kernel.layout import END_OF_TIME, N_ALL, N_VECTOR
 from saleg.kernel.orbit import (
     NEAR,
     cycle_from,
@@ -18,6 +18,7 @@ from saleg.kernel.orbit import (
     mirror,
     next_return,
     read_vector,
+    take_state,
     write_vector,
 )
 from saleg.kernel.state import begin_stroke, copy_row
@@ -90,17 +91,9 @@ class Searches(NamedTuple):
 @inline
 def take_up(searches, row, mapping):
     """Copy the numbers of an engine into the return map."""
-    run = mapping.integration
     for n in range(searches.laws.shape[1]):
-        run.laws[n] = searches.laws[row, n]
-    copy_row(run.engine, 0, searches.engine, row)
-    for side in range(2):
-        copy_row(run.chambers, side, searches.chambers, 2 * row + side)
-    for n in range(N_ALL):
-        run.y[n] = searches.y[row, n]
-    for n in range(N_PEAKS):
-        run.peaks[n] = 0.0
-    run.options[0].longest = searches.longest[row]
+        mapping.integration.laws[n] = searches.laws[row, n]
+    take_state(searches, row, mapping.integration)
 
 
 @inline
