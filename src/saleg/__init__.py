@@ -15,6 +15,7 @@ from saleg.engine import (
     Engine,
     Fuel,
     Intake,
+    OpenEnd,
     SealedCylinder,
     Translator,
 )
@@ -61,6 +62,7 @@ __all__ = [
     "Intake",
     "InvalidEngine",
     "LawError",
+    "OpenEnd",
     "Performance",
     "Run",
     "SalegError",

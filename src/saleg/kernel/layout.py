@@ -214,6 +214,7 @@ CHAMBER_RECORD = np.dtype(
             "bore",
             "area",
             "half_stroke",
+            "back_force",
             "port",
             "head_gap",
             "wall_temperature",

@@ -289,8 +289,9 @@ def write_chamber(C, side, v, rates, dy):
 
 @inline
 def gas_force(C, left, right):
-    """Force of the gas on the translator [N]."""
-    return C[LEFT].sign * C[LEFT].area * left.p + C[RIGHT].sign * C[RIGHT].area * right.p
+    """Force of the gas on the translator, and of the constant pressures behind its pistons [N]."""
+    from_left = C[LEFT].sign * (C[LEFT].area * left.p - C[LEFT].back_force)
+    return from_left + C[RIGHT].sign * (C[RIGHT].area * right.p - C[RIGHT].back_force)
 
 
 @inline
