@@ -28,6 +28,7 @@ from saleg.errors import (
     UnknownPath,
 )
 from saleg.simulation.integration import simulate
+from saleg.simulation.net_output import Auxiliaries, NetOutput
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.simulation.scavenging import Scavenging
@@ -51,6 +52,7 @@ if TYPE_CHECKING:  # imported on first use
     from saleg.studies.comparison import compare as compare
 
 __all__ = [
+    "Auxiliaries",
     "BounceChamber",
     "Controller",
     "Cylinder",
@@ -62,6 +64,7 @@ __all__ = [
     "Intake",
     "InvalidEngine",
     "LawError",
+    "NetOutput",
     "OpenEnd",
     "Performance",
     "Run",
