@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import NamedTuple
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
 from saleg.laws import (
     CFRIgnition,
@@ -33,7 +33,7 @@ from saleg.laws.base import (
     Wall,
 )
 from saleg.laws.usual import GAP, LENGTH
-from saleg.quantities import Quantities, quantity
+from saleg.quantities import Quantities, fields_of, quantity
 
 #: Ranges of what has been built, from a bore of 3 mm to ship engines and gas springs; a value
 #: outside is allowed but likely in another unit.
@@ -131,7 +131,8 @@ class Chamber(Quantities):
     @property
     def laws(self) -> dict[str, Law]:
         """Laws of the chamber by slot; only a chamber that burns fuel has laws of combustion."""
-        return {slot: getattr(self, slot) for slot in CHAMBER_SLOTS if hasattr(self, slot)}
+        kind: Any = type(self)
+        return {slot: getattr(self, slot) for slot in _slots_of(kind)}
 
     @cached_property
     def states(self) -> frozenset[str]:
@@ -147,6 +148,13 @@ class Chamber(Quantities):
     def reference_state(self) -> ReferenceState:
         """State in which its charge is known."""
         raise NotImplementedError
+
+
+@lru_cache(maxsize=64)
+def _slots_of(kind: Any) -> tuple[str, ...]:
+    """Slots that chambers of a class have; looked up at every step of a search."""
+    names = {item.name for item in fields_of(kind)}
+    return tuple(slot for slot in CHAMBER_SLOTS if slot in names)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,7 @@ from saleg.errors import InvalidEngine, SalegWarning
 from saleg.laws import Crankcase, Law, LinearLoad, LinearSprings, PortFlow, ViscousFriction
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
 from saleg.laws.contract import check_laws
-from saleg.quantities import Problem, is_number, problems, unusual
+from saleg.quantities import Problem, fields_of, is_number, problems, unusual
 
 
 @dataclass(frozen=True)
@@ -122,6 +122,15 @@ class Engine:
         return only, only
 
     @property
+    def back_force(self) -> float:
+        """Force of the constant pressures behind the pistons on the translator [N]."""
+        left, right = (
+            chamber.back_area * chamber.back_pressure if isinstance(chamber, GasChamber) else 0.0
+            for chamber in self.chambers
+        )
+        return right - left
+
+    @property
     def has_combustion(self) -> bool:
         """Whether at least one chamber burns fuel."""
         return any(isinstance(chamber, CombustionChamber) for chamber in self.chambers)
@@ -141,7 +150,7 @@ class Engine:
     @property
     def needs_motored_pressure(self) -> bool:
         """Whether a heat-transfer law looks at the motored pressure; it is integrated then."""
-        laws: list[Any] = [chamber.laws.get("heat_transfer") for chamber in self.chambers]
+        laws: list[Any] = [getattr(chamber, "heat_transfer", None) for chamber in self.chambers]
         return any(law is not None and law.needs_motored_pressure for law in laws)
 
     @property
@@ -329,7 +338,8 @@ def _slot_problems(engine: Engine) -> list[Problem]:
         found += _kind_problem(getattr(engine, name), kind, name)
     for side, chamber in zip(("left", "right"), engine.chambers, strict=True):
         found += _kind_problem(chamber, Chamber, side)
-        for item in fields(chamber) if isinstance(chamber, (GasChamber, OpenEnd)) else ():
+        kind: Any = type(chamber)
+        for item in fields_of(kind) if isinstance(chamber, Chamber) else ():
             if item.name in _CHAMBER_PARTS:
                 part, kind = getattr(chamber, item.name), _CHAMBER_PARTS[item.name]
                 found += _kind_problem(part, kind, f"{side}.{item.name}")
@@ -384,7 +394,12 @@ def _has_numbers(chamber: Chamber) -> bool:
     parts = [
         getattr(chamber, slot) for slot in ("gas_exchange", "supply") if hasattr(chamber, slot)
     ]
-    numbers = [getattr(part, item.name) for part in parts for item in fields(part)]
+    kinds: list[Any] = [type(part) for part in parts]
+    numbers = [
+        getattr(part, item.name)
+        for part, kind in zip(parts, kinds, strict=True)
+        for item in fields_of(kind)
+    ]
     if isinstance(chamber, GasChamber):
         numbers += [chamber.back_area, chamber.back_pressure]
     return all(map(is_number, numbers))

@@ -146,6 +146,7 @@ ENGINE_RECORD = np.dtype(
         for name in (
             "mass",
             "per_mass",
+            "back_force",
             "length_scale",
             "speed_scale",
             "current_scale",
@@ -214,7 +215,6 @@ CHAMBER_RECORD = np.dtype(
             "bore",
             "area",
             "half_stroke",
-            "back_force",
             "port",
             "head_gap",
             "wall_temperature",

@@ -46,9 +46,7 @@ def observe(P, E, C, y, dy, motored, row):
         row.heat_loss[side] = dy[N_STATE + HEAT_LOST + side]
         row.ignition[side] = y[IGNITION + side]
         row.mode[side] = C[side].mode
-    row.spring_force = springs_force(P, motion)
-    for side in range(2):
-        row.spring_force -= C[side].sign * C[side].back_force
+    row.spring_force = springs_force(P, motion) + E.back_force
     row.friction_force = friction_force(P, E.friction_held, motion)
     row.alternator_force, _ = alternator_action(P, E, E.t, motion)
     row.electrical_power = dy[N_STATE + ELECTRICAL_ENERGY]

@@ -289,9 +289,8 @@ def write_chamber(C, side, v, rates, dy):
 
 @inline
 def gas_force(C, left, right):
-    """Force of the gas on the translator, and of the constant pressures behind its pistons [N]."""
-    from_left = C[LEFT].sign * (C[LEFT].area * left.p - C[LEFT].back_force)
-    return from_left + C[RIGHT].sign * (C[RIGHT].area * right.p - C[RIGHT].back_force)
+    """Force of the gas on the translator [N]."""
+    return C[LEFT].sign * C[LEFT].area * left.p + C[RIGHT].sign * C[RIGHT].area * right.p
 
 
 @inline
@@ -341,7 +340,7 @@ def write_rates(P, E, C, t, y, dy, motored):
     """The same, folded into the caller."""
     left = chamber_rates(P, E, C, LEFT, t, y, motored)
     right = chamber_rates(P, E, C, RIGHT, t, y, motored)
-    force = gas_force(C, left, right)
+    force = gas_force(C, left, right) + E.back_force
     if CRANKCASE_IS_WANTED:
         force += crankcase_force(P, C, LEFT, y) + crankcase_force(P, C, RIGHT, y)
     rates_of_motion(P, E, t, y, dy, force)

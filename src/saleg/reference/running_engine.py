@@ -114,7 +114,8 @@ class RunningEngine:
         y[MOTORED_PRESSURE : MOTORED_PRESSURE + 2] = y[PRESSURE : PRESSURE + 2]
         chambers = chamber_states(engine, start)
         mass = float(engine.translator.mass)
-        machine = EngineState(mass, float(motored), start.stroke, start.mean_piston_speed)
+        speed = start.mean_piston_speed
+        machine = EngineState(mass, engine.back_force, float(motored), start.stroke, speed)
         totals = [StrokeTotals(), StrokeTotals()]
         x = start.x if start.at_dead_centre else math.nan
         self = cls(engine, 0.0, y, machine, chambers, totals, x)
@@ -455,9 +456,8 @@ class RunningEngine:
             row[f"peak_{name}"] = self.peaks[first : first + 2]
         row["peak_velocity"] = self.peaks[layout.PEAK_VELOCITY]
         row["peak_acceleration"] = self.peaks[layout.PEAK_ACCELERATION]
-        row["spring_energy"] = self.engine.springs.energy(motion) + sum(
-            c.back_force * self.clearance(side) for side, c in enumerate(self.chambers)
-        )
+        behind = self.machine.back_force * x
+        row["spring_energy"] = self.engine.springs.energy(motion) - behind
         row["equivalence_ratio"], row["intake_temperature"] = ratings(self.engine)
         for side in (0, 1):
             for name, value in vars(self.totals[side]).items():

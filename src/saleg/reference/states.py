@@ -27,6 +27,8 @@ class EngineState:
     ----------
     mass : float
         Moving mass [kg].
+    back_force : float
+        Of the constant pressures behind the pistons [N].
     motored : float
         1 to integrate the motored pressures as well.
     stroke, mean_piston_speed : float
@@ -38,6 +40,7 @@ class EngineState:
     """
 
     mass: float
+    back_force: float
     motored: float
     stroke: float
     mean_piston_speed: float
@@ -56,8 +59,6 @@ class ChamberState:
         +1 if the chamber grows with x, else -1.
     bore, area, half_stroke : float
         Geometry [m, m^2, m].
-    back_force : float
-        Of the constant pressure behind the piston, against the chamber [N].
     wall_temperature, gas_constant : float
         [K], [J/kg/K].
     mass, fuel, air, burnt, equivalence_ratio : float
@@ -114,7 +115,6 @@ class ChamberState:
     port: float = math.inf
     intake_pressure: float = 0.0
     intake_temperature: float = 0.0
-    back_force: float = 0.0
     equivalence_ratio_wanted: float = 0.0
     air_fuel_ratio: float = 1.0
     lower_heating_value: float = 0.0
@@ -188,7 +188,6 @@ def _chamber_state(chamber: GasChamber, held: Contents, sign: float, x: float) -
         half_stroke=chamber.half_stroke,
         wall_temperature=chamber.wall_temperature,
         gas_constant=chamber.gas_properties.gas_constant,
-        back_force=chamber.back_area * chamber.back_pressure,
         mass=held.mass,
         fuel=held.fuel,
         air=held.air,

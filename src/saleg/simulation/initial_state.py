@@ -157,9 +157,9 @@ def _acceleration(engine: Engine, E: Any, C: list[Any], y: list[Any], kernel: An
     for side, c in enumerate(C):
         is_open = c.mode == layout.OPEN
         p = c.intake_pressure if is_open else kernel.gas_of(E, C, side, y, 0).p
-        gas_force = gas_force + c.sign * (c.area * p - c.back_force)
+        gas_force = gas_force + c.sign * c.area * p
     dy = [0.0] * layout.N_ALL
-    kernel.rates_of_motion(engine, E, 0.0, y, dy, gas_force)
+    kernel.rates_of_motion(engine, E, 0.0, y, dy, gas_force + E.back_force)
     return dy[layout.V]
 
 
@@ -179,6 +179,7 @@ def sign(value: float) -> float:
 def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     length = 0.5 * engine.maximum_stroke
     E.mass = engine.translator.mass
+    E.back_force = engine.back_force
     E.length_scale = length
     E.speed_scale = length * sqrt(_stiffness(engine, length) / E.mass)
     E.maximum_stroke = engine.maximum_stroke
@@ -258,7 +259,6 @@ def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
         c.bore = chamber.bore
         c.wall_temperature = chamber.wall_temperature
         c.gas_constant = chamber.gas_properties.gas_constant
-        c.back_force = chamber.back_area * chamber.back_pressure
     full = chamber.reference_state
     c.p_closing = c.intake_pressure = full.pressure
     c.T_closing = c.intake_temperature = full.temperature
