@@ -338,8 +338,8 @@ def _slot_problems(engine: Engine) -> list[Problem]:
         found += _kind_problem(getattr(engine, name), kind, name)
     for side, chamber in zip(("left", "right"), engine.chambers, strict=True):
         found += _kind_problem(chamber, Chamber, side)
-        kind: Any = type(chamber)
-        for item in fields_of(kind) if isinstance(chamber, Chamber) else ():
+        made: Any = type(chamber)
+        for item in fields_of(made) if isinstance(chamber, Chamber) else ():
             if item.name in _CHAMBER_PARTS:
                 part, kind = getattr(chamber, item.name), _CHAMBER_PARTS[item.name]
                 found += _kind_problem(part, kind, f"{side}.{item.name}")
