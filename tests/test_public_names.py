@@ -38,12 +38,18 @@ PUBLIC = (
     "saleg.start",
     "saleg.studies",
     "saleg.sweep",
+    "saleg.thesis.appendix_c",
     "saleg.thesis.beside",
     "saleg.thesis.chapter_2",
     "saleg.thesis.chapter_3",
     "saleg.thesis.chapter_4",
     "saleg.thesis.chapter_5",
+    "saleg.thesis.chapter_5.figures",
+    "saleg.thesis.claims",
+    "saleg.thesis.figures",
     "saleg.thesis.optimisation",
+    "saleg.thesis.printed_tables",
+    "saleg.thesis.prototypes",
     "saleg.thesis.tables",
 )
 #: A unit in a description: ``[m/s]``, ``[-]``, "in the unit of the figure".

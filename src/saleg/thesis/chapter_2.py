@@ -16,6 +16,7 @@ rising
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,6 +40,7 @@ from saleg.fundamental import (
 from saleg.plotting import fundamental as plots
 from saleg.plotting.docstrings import documented
 from saleg.plotting.style import panels_or_new
+from saleg.thesis.figure import Figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -181,10 +183,7 @@ def figure_14(ax: Axes | None = None) -> ShownAxes:
 @documented(axes=2)
 def figure_15(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw velocity and acceleration under either work force."""
-    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
-    plots.compare_velocities(both_loads(), panels[0], "Velocity")
-    plots.compare_accelerations(both_loads(), panels[1], "Acceleration")
-    return panels
+    return _compared(both_loads(), ax)
 
 
 @documented(axes=2)
@@ -208,10 +207,7 @@ def figure_18(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
 @documented(axes=2)
 def figure_19(ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """Draw how the compression ratio settles, and where the heat goes."""
-    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
-    plots.compression_ratios(combined(), panels[0])
-    plots.energy_pie(cycle_balance(combined()), panels[1])
-    return panels
+    return _settling(combined(), ax)
 
 
 #: Drawing of every figure, by its number in the thesis.
@@ -230,8 +226,38 @@ FIGURES: dict[int, Callable[..., Any]] = {
 }
 
 
-def _motion(history: History, ax: Any) -> Panels:
+def _motion(history: History, ax: Any = None) -> Panels:
     panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
     plots.phase_portrait(history, panels[0])
     plots.acceleration_portrait(history, panels[1], "Acceleration")
     return panels
+
+
+def _compared(histories: dict[str, History], ax: Any = None) -> Panels:
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
+    plots.compare_velocities(histories, panels[0], "Velocity")
+    plots.compare_accelerations(histories, panels[1], "Acceleration")
+    return panels
+
+
+def _settling(history: History, ax: Any = None) -> Panels:
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
+    plots.compression_ratios(history, panels[0])
+    plots.energy_pie(cycle_balance(history), panels[1])
+    return panels
+
+
+#: Case and drawing of every figure, by its number.
+CASES = {
+    9: Figure(excess, plots.phase_portrait),
+    10: Figure(deficit, plots.phase_portrait),
+    11: Figure(from_below, plots.phase_portrait),
+    12: Figure(from_above, plots.phase_portrait),
+    13: Figure(held, plots.phase_portrait),
+    14: Figure(profiles, partial(plots.load_profiles, start=DEEP)),
+    15: Figure(both_loads, _compared),
+    16: Figure(early, _motion),
+    17: Figure(lossy, plots.pressure_loops),
+    18: Figure(combined, _motion),
+    19: Figure(combined, _settling),
+}

@@ -1,7 +1,7 @@
 """Chapter 3: the base case, and how it answers to numerical settings and to its models.
 
 Studies of the models (Figures 43 to 59) are in the loop of the component design, which section
-3.6.1 has active. Table 6 and Figures 60 and 61, spark-ignited prototypes, have no machines here.
+3.6.1 has active. Figures 60 and 61 are those of :mod:`saleg.thesis.prototypes`.
 
 Examples
 --------
@@ -21,6 +21,7 @@ from saleg.machines import thesis_base
 from saleg.plotting import sensitivity as curves
 from saleg.plotting import studies as figures
 from saleg.plotting.docstrings import documented
+from saleg.plotting.style import panels_or_new
 from saleg.studies import sensitivity
 from saleg.studies.sensitivity import Study
 from saleg.thesis.beside import comparison
@@ -31,10 +32,12 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.plotting.figure import Panels
+
 
 def base_case() -> Run:
     """Base case of Table 1, simulated until it is steady."""
-    return simulate(thesis_base(), 2.5)
+    return simulate(thesis_base(), 2.5, motored_pressure=True)
 
 
 def report(run: Run) -> str:
@@ -175,20 +178,41 @@ def _draw_durations(study: Study, ax: Any = None) -> Any:
     return curves.trends(study.table, ax=ax, logarithmic=True)
 
 
+def _pressure_and_heat(run: Run, ax: Any = None) -> Panels:
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
+    plotting.pressure_time(run, panels[0])
+    plotting.heat_flow_time(run, panels[1])
+    return panels
+
+
+def _power_and_efficiency(run: Run, ax: Any = None) -> Panels:
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
+    plotting.power(run, panels[0])
+    plotting.efficiency(run, panels[1])
+    return panels
+
+
+def _pressures_and_heat_flows(study: Study, ax: Any = None) -> Panels:
+    panels = panels_or_new(ax, (1, 2), 10.0, 4.4)
+    curves.pressure_time(study, panels[0])
+    curves.heat_flow_time(study, panels[1])
+    return panels
+
+
 #: Figures by their number.
 FIGURES = {
     36: Figure(base_case, plotting.velocity_position),
     37: Figure(base_case, plotting.acceleration_velocity),
     38: Figure(base_case, plotting.pressure_position),
-    39: Figure(base_case, plotting.pressure_time),
-    40: Figure(base_case, plotting.power),
+    39: Figure(base_case, _pressure_and_heat),
+    40: Figure(base_case, _power_and_efficiency),
     41: Figure(base_case, plotting.energy_pie),
     42: Figure(base_case, plotting.approach_to_steady_state),
     43: Figure(
         heat_transfer_parameters,
         partial(curves.trends, figures=("frequency", "heat_transfer_share")),
     ),
-    44: Figure(heat_transfer_laws, curves.heat_flow_time),
+    44: Figure(heat_transfer_laws, _pressures_and_heat_flows),
     45: Figure(heat_transfer_laws, curves.velocity_position),
     46: Figure(ignition_coefficient, curves.pressure_volume),
     47: Figure(ignition_temperature, curves.velocity_position),

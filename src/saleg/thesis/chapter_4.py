@@ -12,6 +12,7 @@ Examples
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,9 +20,11 @@ import numpy as np
 from saleg import sweep
 from saleg.design import Design, evaluate_many
 from saleg.errors import nearest, shown
+from saleg.plotting import design as drawings
 from saleg.plotting import sweeps
 from saleg.plotting.docstrings import documented
 from saleg.sweep import SweepError
+from saleg.thesis.figure import Figure
 from saleg.thesis.tables import columns
 
 if TYPE_CHECKING:
@@ -220,3 +223,17 @@ def report(beside: pd.DataFrame) -> str:
     shown = (100.0 * beside).round(1)
     shown.loc["median magnitude"] = (100.0 * beside.abs().median()).round(1)
     return str(shown.to_string())
+
+
+#: Figures by their number. Those of the design equations have no data but the equations; both
+#: figures of a sweep share a picture.
+FIGURES = {
+    63: Figure(lambda: None, lambda _, ax=None: drawings.alternator_map(ax=ax)),
+    65: Figure(lambda: None, lambda _, ax=None: drawings.piston_mass(ax)),
+    66: Figure(lambda: None, lambda _, ax=None: drawings.natural_frequency(ax=ax)),
+    **{
+        67 + 2 * place + other: Figure(partial(sweep_along, name), partial(draw_sweep, name=name))
+        for place, name in enumerate(SWEEPS)
+        for other in (0, 1)
+    },
+}
