@@ -33,6 +33,7 @@ PUBLIC = (
     "saleg.plotting.sweeps",
     "saleg.quantities",
     "saleg.reference",
+    "saleg.reporting",
     "saleg.sensitivity",
     "saleg.start",
     "saleg.studies",

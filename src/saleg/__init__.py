@@ -45,6 +45,7 @@ if TYPE_CHECKING:  # imported on first use
     from saleg import studies as studies
     from saleg import sweep as sweep
     from saleg import thesis as thesis
+    from saleg.reporting.document import report as report
     from saleg.steady import continuation as continuation
     from saleg.studies import sensitivity as sensitivity
     from saleg.studies.comparison import compare as compare

@@ -24,7 +24,7 @@ LAZY = (
     "thesis",
 )
 #: Functions that are imported on first use, and the modules they stand in.
-FUNCTIONS = {"compare": "saleg.studies.comparison"}
+FUNCTIONS = {"compare": "saleg.studies.comparison", "report": "saleg.reporting.document"}
 #: Short names that documentation has given to modules, and where these live. Some of them are
 #: names for good (``saleg.continuation``, ``saleg.sensitivity``, ``saleg.start``).
 ALIASES = {
@@ -34,7 +34,6 @@ ALIASES = {
     "saleg.paths": "saleg.engine.paths",
     "saleg.files": "saleg.engine.toml",
     "saleg.performance": "saleg.simulation.performance",
-    "saleg.report": "saleg.simulation.report",
     "saleg.thesis_tables": "saleg.thesis.tables",
     "saleg.fundamental.plots": "saleg.plotting.fundamental",
     "saleg.fundamental.figures": "saleg.thesis.chapter_2",

@@ -1,4 +1,4 @@
-"""Command line: ``saleg run``, ``steady``, ``list``, ``sweep``, ``optimize`` and others."""
+"""Command line: ``saleg run``, ``steady``, ``report``, ``list``, ``sweep`` and others."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 
-from saleg.cli import control, fundamental, listing, optimize, run, steady, sweep
+from saleg.cli import control, fundamental, listing, optimize, report, run, steady, sweep
 from saleg.errors import SalegError
 from saleg.files.signals import ending_in_order
 from saleg.version import __version__
@@ -67,6 +67,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     run.add_to(commands)
     steady.add_to(commands)
+    report.add_to(commands)
     listing.add_to(commands)
     fundamental.add_to(commands)
     sweep.add_to(commands)

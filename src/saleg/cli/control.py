@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -102,6 +103,7 @@ def perform(options: argparse.Namespace) -> bool:
     if options.animate is not None and run is not None:
         from saleg.plotting import animate
 
+        print(f"saleg: drawing {options.animate}, some 20 s", file=sys.stderr, flush=True)
         animate(run, options.animate, overwrite=options.force)
         print(f"wrote {options.animate}")
     return run is None or run.status.ended_well

@@ -36,6 +36,8 @@ _WORDS = {
     "port_closing": "clearance at port closing",
     "spring.stiffness": "spring stiffness",
     "intake.pressure": "intake pressure",
+    "pressure": "bounce chamber pressure",
+    "temperature": "bounce chamber temperature",
     "friction.coefficient": "friction coefficient",
     "alternator.load_constant": "load constant",
 }

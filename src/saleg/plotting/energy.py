@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from saleg.plotting.figure import ShownAxes
     from saleg.simulation.performance import EnergyBalance
     from saleg.simulation.run import Run
+    from saleg.steady.solver import SteadyState
 
 #: Share of the fuel energy below which a flow is not drawn.
 VISIBLE = 1e-3
@@ -59,8 +60,8 @@ def energy_flows(balance: EnergyBalance) -> dict[str, float]:
     }
 
 
-def balance_of(run: Run) -> EnergyBalance:
-    """The energy balance of a run's last full cycle, with fuel in it.
+def balance_of(run: Run | SteadyState) -> EnergyBalance:
+    """The energy balance of the last full cycle, with fuel in it.
 
     Raises
     ------
