@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from saleg.cli.run import CommandError, add_changes, changed, load
+from saleg.cli.run import add_changes, changed, load
+from saleg.cli.words import CommandError
 from saleg.files.atomic import new_folder
 from saleg.files.reading import expanded
 from saleg.machines import CATALOGUE

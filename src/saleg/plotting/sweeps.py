@@ -80,6 +80,55 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> Panels:
 
 
 @documented(axes=8)
+def maps(table: pd.DataFrame, x: str, y: str, ax: Any = None) -> Panels:
+    """Draw stability, compression, performance and score over two inputs, as colours.
+
+    A grid is drawn as cells, other points as dots. Points without a steady state are blank,
+    unstable ones are crossed.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`saleg.sweep.run`.
+    x, y : str
+        The inputs.
+    """
+    shown = [name for name in _shown(table, x) if name != y]
+    _check(table, [x, y, *shown])
+    axes = panels_or_new(ax, (2, 4), 14.0, 6.4, sharex=True, sharey=True)
+    kept = _orbits(table)
+    kept.attrs = table.attrs
+    at = values(kept, x), values(kept, y)
+    unstable = ~kept["stable"].to_numpy(dtype=bool) if "stable" in kept else np.zeros(0, dtype=bool)
+    for panel, name in zip(axes, shown, strict=False):
+        drawn = _coloured(panel, kept, x, y, name)
+        if unstable.any():
+            panel.scatter(
+                at[0][unstable], at[1][unstable], marker="x", s=9, c="0.25", linewidths=0.7
+            )
+        panel.figure.colorbar(drawn, ax=panel, pad=0.02)
+        panel.set_title(label(table, name), fontsize="medium")
+        if panel.get_subplotspec().is_last_row():
+            panel.set_xlabel(label(table, x))
+        if panel.get_subplotspec().is_first_col():
+            panel.set_ylabel(label(table, y))
+    _hide(axes[len(shown) :])
+    axes[0].figure.suptitle(_count(table), fontsize="medium")
+    return axes
+
+
+def _coloured(panel: Axes, kept: pd.DataFrame, x: str, y: str, name: str) -> Any:
+    """A figure over two inputs: cells where they are a grid, dots where they are not."""
+    across, up, colour = (values(kept, column) for column in (x, y, name))
+    columns, rows = np.unique(across), np.unique(up)
+    if len(columns) * len(rows) > 2 * len(kept) or min(len(columns), len(rows)) < 2:
+        return panel.scatter(across, up, c=colour, s=14.0)
+    cells = np.full((len(rows), len(columns)), np.nan)
+    cells[np.searchsorted(rows, up), np.searchsorted(columns, across)] = colour
+    return panel.pcolormesh(columns, rows, cells, shading="nearest")
+
+
+@documented(axes=8)
 def groups(table: pd.DataFrame, x: str, ax: Any = None) -> Panels:
     """Draw a cloud of designs over a dimensionless group, coloured by score (Figures 117-124).
 
