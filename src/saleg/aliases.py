@@ -10,6 +10,7 @@ from typing import Any
 
 #: Parts that are imported on first use.
 LAZY = (
+    "calibration",
     "continuation",
     "control",
     "design",
@@ -24,7 +25,11 @@ LAZY = (
     "thesis",
 )
 #: Functions that are imported on first use, and the modules they stand in.
-FUNCTIONS = {"compare": "saleg.studies.comparison", "report": "saleg.reporting.document"}
+FUNCTIONS = {
+    "calibrate": "saleg.calibration.fit",
+    "compare": "saleg.studies.comparison",
+    "report": "saleg.reporting.document",
+}
 #: Short names that documentation has given to modules, and where these live. Some of them are
 #: names for good (``saleg.continuation``, ``saleg.sensitivity``, ``saleg.start``).
 ALIASES = {
