@@ -73,7 +73,14 @@ from saleg.laws.ignition import (
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
-from saleg.laws.springs import EndStops, LinearSprings, PreloadedSprings, ProgressiveSprings
+from saleg.laws.springs import (
+    AirSprings,
+    EndStops,
+    LinearSprings,
+    OneSidedSprings,
+    PreloadedSprings,
+    ProgressiveSprings,
+)
 from saleg.laws.supply import Crankcase, Plenum
 from saleg.laws.walls import FixedWall, LumpedWall
 
@@ -82,6 +89,7 @@ accept_earlier_names()
 __all__ = [
     "ActuatorLaw",
     "Actuators",
+    "AirSprings",
     "Alternator",
     "AlwaysMotored",
     "Annand",
@@ -141,6 +149,7 @@ __all__ = [
     "NoHeatTransfer",
     "NoLeak",
     "NoMisfires",
+    "OneSidedSprings",
     "Plenum",
     "PolytropicLoss",
     "PortFlow",

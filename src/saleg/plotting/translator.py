@@ -48,14 +48,15 @@ if TYPE_CHECKING:
 
 FORCE = readable("spring_force", "N", "force to the right")
 EFFICIENCY = readable("efficiency", "-")
-#: Sum of the forces, and the colours of all of them.
-INERTIA = "inertia (sum)"
+#: Constant pressures, the sum of the forces, and the colours of all of them.
+BEHIND, INERTIA = "behind the pistons", "inertia (sum)"
 FORCE_COLOURS = {
     "gas left": LEFT_COLOUR,
     "gas right": RIGHT_COLOUR,
     "springs": SPRING_COLOUR,
     "alternator": ALTERNATOR_COLOUR,
     "friction": FRICTION_COLOUR,
+    BEHIND: "#CC79A7",
     INERTIA: TRANSLATOR_COLOUR,
 }
 
@@ -98,16 +99,19 @@ def forces(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
 
 def forces_on(engine: Engine, history: pd.DataFrame) -> dict[str, np.ndarray]:
     """Forces on the translator over a history by name, positive to the right [N]."""
-    left, right = (math.pi * chamber.bore**2 / 4.0 for chamber in engine.chambers)
+    left, right = engine.piston_areas
     forces = {
         "gas left": left * history["p_left"],
         "gas right": -right * history["p_right"],
         "springs": history["spring_force"],
         "alternator": -history["alternator_force"],
         "friction": -history["friction_force"],
+        BEHIND: np.full(len(history), engine.back_force),
         INERTIA: engine.translator.mass * history["a"],
     }
-    return {name: force.to_numpy() for name, force in forces.items()}
+    if engine.back_force == 0.0:
+        del forces[BEHIND]
+    return {name: np.asarray(force) for name, force in forces.items()}
 
 
 @figure_of_cycle

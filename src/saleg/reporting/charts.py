@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from saleg.display.svg import GREEN, LEFT, RIGHT, YELLOW, Curve, chart, picture, tag, text
 from saleg.plotting.energy import FLOW_COLOURS, joules, visible_flows
-from saleg.plotting.translator import INERTIA, forces_on
+from saleg.plotting.translator import BEHIND, INERTIA, forces_on
 from saleg.simulation.performance import EnergyBalance
 from saleg.simulation.readable import readable
 from saleg.simulation.run import Run
@@ -16,6 +16,7 @@ FORCE_COLOURS = {
     "springs": YELLOW,
     "alternator": GREEN,
     "friction": "#B08A5B",
+    BEHIND: "#C476A0",
     INERTIA: "currentColor",
 }
 FORCE = readable("spring_force", "N", "force to the right")
