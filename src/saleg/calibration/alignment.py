@@ -39,7 +39,7 @@ class Comparison:
     rms: dict[str, float]
     relative: dict[str, float]
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         parts = (f"{WORDS[name]} {100.0 * share:.2f} %" for name, share in self.relative.items())
         return f"{self.trace.name}: off by {', '.join(parts)} of its range (RMS)"
 

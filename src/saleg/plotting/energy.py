@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from saleg.plotting.cycle import NoCycle, titled
 from saleg.plotting.docstrings import documented
+from saleg.plotting.overlay import sign
 from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
 
 if TYPE_CHECKING:
@@ -133,4 +134,5 @@ def energy_pie(run: Run, ax: Axes | None = None, *, label: str | None = None) ->
     ax.set_anchor("E")  # beside the legend, which the layout makes room for, however wide the axes
     title = named(f"Fuel energy of a cycle: {joules(balance.fuel)}", label)
     ax.set_title(titled(run, title), fontsize="medium")
+    sign(ax, run)
     return ax

@@ -112,3 +112,19 @@ def placed(ax: Axes, run: Run, label: str | None) -> Iterator[Place]:
         name += f" ({run.status})"
     yield Place(number, name)
     ax.get_lines()[count].set_gid(_FIRST_CURVE)
+
+
+def sign(ax: Axes, run: Run) -> None:
+    """Name engine and settings of a run below a figure made here; others are left as they are."""
+    from saleg.plotting.figure import ShownFigure
+
+    if isinstance(ax.figure, ShownFigure):
+        ax.figure.sign(", ".join([run.engine.name or "engine", *_settings(run)]))
+
+
+def _settings(run: Run) -> list[str]:
+    """How a run was integrated, in words."""
+    known = run.settings
+    if known.get("method") == "fixed":
+        return [f"order {known.get('order', '-')}, steps of {1e6 * known['step']:g} µs"]
+    return [f"rtol {known['rtol']:g}"] if "rtol" in known else []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from saleg.display.svg import GREEN, LEFT, RIGHT, YELLOW, Curve, chart, picture, tag, text
 from saleg.plotting.energy import FLOW_COLOURS, joules, visible_flows
+from saleg.plotting.overview import settled_time
 from saleg.plotting.translator import BEHIND, INERTIA, forces_on
 from saleg.simulation.performance import EnergyBalance
 from saleg.simulation.readable import readable
@@ -51,11 +52,12 @@ def forces(orbit: Run) -> str:
 
 
 def course(run: Run) -> str:
-    """Stroke of every cycle of a run."""
+    """Stroke of every cycle of a run until it is settled."""
     cycles = run.cycles
     end = (cycles["t"] + cycles["period"]).to_numpy()
-    stroke = cycles["stroke"].to_numpy()
-    curve = Curve(TIME.of(end), STROKE.of(stroke), LEFT, points=len(stroke) < 40)
+    shown = end <= settled_time(run)
+    stroke = cycles["stroke"].to_numpy()[shown]
+    curve = Curve(TIME.of(end[shown]), STROKE.of(stroke), LEFT, points=len(stroke) < 40)
     return chart("stroke of every cycle", [curve], TIME.label, STROKE.label)
 
 

@@ -24,10 +24,10 @@ section {{ border-top: 1px solid var(--line); padding: 1rem 0; }}
 ul {{ margin: 0.4em 0; padding-left: 1.2em; }}
 .grid {{ display: grid; gap: 1rem 2rem; align-items: start;
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr)); }}
-figure {{ margin: 0; min-width: 0; }}
-figure svg {{ display: block; width: 100%; height: auto; max-width: 34rem; }}
-figure.wide svg {{ max-width: 52rem; }}
-figure.small svg {{ max-width: 19rem; }}
+figure {{ margin: 0; min-width: 0; max-width: 34rem; }}
+figure svg {{ display: block; width: 100%; height: auto; }}
+figure.wide {{ max-width: 52rem; }}
+figure.small {{ max-width: 19rem; }}
 figcaption, footer, .faint {{ font-size: 0.85rem; opacity: 0.75; }}
 table {{ max-width: 100%; }}
 table.heat {{ border-collapse: collapse; font-size: 0.85rem; }}

@@ -113,7 +113,12 @@ def cycle(subject: Subject) -> str:
     except NoCycle as error:
         missing = paragraph(str(error), "faint")
     if isinstance(subject.result, Run) and len(subject.result.cycles) > 1:
-        pictures.append(drawn(charts.course(subject.result), "course of the run"))
+        pictures.append(
+            drawn(
+                charts.course(subject.result),
+                "course of the run until it is settled: stroke of every cycle",
+            )
+        )
     return section("Cycle", f'<div class="grid">{"".join(pictures)}</div>', missing)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from saleg.control.moments import first_misfire, fuel_cuts, late_ignitions, motored_times
 from saleg.plotting.cycle import NoCycle, title_of
 from saleg.plotting.labels import TIME, label, values
-from saleg.plotting.overlay import ALONE, Place
+from saleg.plotting.overlay import ALONE, Place, sign
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
     COINCIDING,
@@ -151,6 +151,7 @@ def finished(
         if spec is None or spec.is_last_row():
             panel.set_xlabel(TIME)
     panels[0].set_title(first, fontsize="medium")
+    sign(panels[0], run)
     if legend_on is not None:
         legend_on.legend(fontsize="small", loc="lower right", edgecolor="none")
     else:

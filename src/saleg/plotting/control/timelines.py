@@ -201,7 +201,15 @@ def controlled(
                 draw(panel, run, name, place)
     if place.number == 0:
         draw_moments(panels, run)
-    return finished(panels, run, "Under control", columns=2, place=place)
+    title = "Under control" if _is_commanded(run) else "Operation, and what was commanded"
+    return finished(panels, run, title, columns=2, place=place)
+
+
+def _is_commanded(run: Run) -> bool:
+    """Whether motor, fuel or intake were commanded to change; any engine's load may regulate."""
+    table = run.dead_centres
+    changed = ("motor_frequency", "equivalence_ratio", "intake_temperature")
+    return bool(table["motoring"].any()) or any(float(np.ptp(table[name])) > 0 for name in changed)
 
 
 def _varied(run: Run) -> str:
