@@ -106,11 +106,23 @@ def placed(ax: Axes, run: Run, label: str | None) -> Iterator[Place]:
     ------
     Place
     """
+    ending = "" if run.status.ended_well else f" ({run.status})"
+    with _placed(ax, label, "run", ending) as place:
+        yield place
+
+
+@contextmanager
+def placed_table(ax: Axes, label: str | None) -> Iterator[Place]:
+    """Place of a table on some axes, as :func:`placed` gives that of a run."""
+    with _placed(ax, label, "table") as place:
+        yield place
+
+
+@contextmanager
+def _placed(ax: Axes, label: str | None, what: str, ending: str = "") -> Iterator[Place]:
     count, number = len(ax.get_lines()), runs_on(ax)
-    name = str(label) if label else f"run {number + 1}" if number else ""
-    if name and not run.status.ended_well:
-        name += f" ({run.status})"
-    yield Place(number, name)
+    name = str(label) if label else f"{what} {number + 1}" if number else ""
+    yield Place(number, f"{name}{ending}" if name else "")
     ax.get_lines()[count].set_gid(_FIRST_CURVE)
 
 

@@ -73,17 +73,20 @@ def draw(ax: Axes, run: Run, name: str, place: Place = ALONE, **look: Any) -> No
         ax.set_ylim(min(low, ax.get_ylim()[0]), max(high, ax.get_ylim()[1]))
 
 
-def draw_peaks(ax: Axes, run: Run, name: str, text: str) -> None:
+def draw_peaks(ax: Axes, run: Run, name: str, text: str, place: Place = ALONE) -> None:
     """Peaks of either cylinder in every cycle."""
     cycles = run.cycles
     time = (cycles["t"] + cycles["period"]).to_numpy()
-    for side, colour in COLOURS.items():
+    for side, colour in place.sides.items():
         column, look = f"{name}_{side}", COINCIDING[side]
         line: dict[str, Any] = {"linestyle": look.line, "linewidth": look.width, "color": colour}
-        ax.plot(time, values(cycles, column), label=side, **line)
+        ax.plot(time, values(cycles, column), label=place.text(side), **line)
     ax.set_ylabel(label(cycles, f"{name}_left", text))
     both = [values(cycles, f"{name}_{side}") for side in COLOURS]
+    top = ax.get_ylim()[1]
     _limit(ax, name, time, np.maximum(*both))
+    if place.number:
+        ax.set_ylim(top=max(top, ax.get_ylim()[1]))
 
 
 def _limit(ax: Axes, name: str, time: np.ndarray, drawn: np.ndarray) -> None:
