@@ -6,6 +6,7 @@ It is spoken to in its own protocol over a pair of pipes: texts in JSON, each en
 import base64
 import json
 import os
+import select
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,8 @@ import time
 from pathlib import Path
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
+#: Time without a word from the browser after which it is given up [s].
+PATIENCE = 90.0
 #: Begins a program whose third and fourth files are two of this process.
 LAUNCH = """
 import fcntl, os, sys
@@ -70,8 +73,7 @@ class Browser:
         os.close(theirs[1])
         self.writer, self.reader = ours[1], theirs[0]
         self.rest, self.number, self.session, self.events = b"", 0, None, []
-        targets = self.ask("Target.getTargets")["targetInfos"]
-        (page,) = [target["targetId"] for target in targets if target["type"] == "page"]
+        page = self.ask("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.ask("Target.attachToTarget", targetId=page, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.ask(f"{domain}.enable")
@@ -100,6 +102,8 @@ class Browser:
 
     def _next(self):
         while b"\0" not in self.rest:
+            ready = select.select([self.reader], [], [], PATIENCE)[0]
+            assert ready, f"the browser has said nothing for {PATIENCE} s"
             more = os.read(self.reader, 1 << 16)
             assert more, "the browser has gone"
             self.rest += more

@@ -19,6 +19,7 @@ PUBLIC = (
     "saleg.design.formulas",
     "saleg.errors",
     "saleg.export",
+    "saleg.fuels",
     "saleg.fundamental",
     "saleg.laws",
     "saleg.machines",

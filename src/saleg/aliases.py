@@ -15,6 +15,7 @@ LAZY = (
     "control",
     "design",
     "export",
+    "fuels",
     "fundamental",
     "optimize",
     "plotting",

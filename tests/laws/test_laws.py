@@ -22,6 +22,7 @@ from saleg.quantities import problems
 LAWS = [
     laws.ChangGas(),
     laws.ConstantGamma(1.35),
+    laws.MixtureGas(),
     laws.Hohenberg(),
     laws.Woschni(),
     laws.Chang(),

@@ -51,7 +51,7 @@ from saleg.laws.friction import (
     ViscousFriction,
 )
 from saleg.laws.gas_exchange import InstantExchange, PortFlow
-from saleg.laws.gas_properties import ChangGas, ConstantGamma
+from saleg.laws.gas_properties import ChangGas, ConstantGamma, MixtureGas
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
     Annand,
@@ -141,6 +141,7 @@ __all__ = [
     "LumpedWall",
     "MakeUpValve",
     "Misfires",
+    "MixtureGas",
     "Motion",
     "MotorControl",
     "NeverMotored",
