@@ -24,6 +24,7 @@ section {{ border-top: 1px solid var(--line); padding: 1rem 0; }}
 ul {{ margin: 0.4em 0; padding-left: 1.2em; }}
 .grid {{ display: grid; gap: 1rem 2rem; align-items: start;
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr)); }}
+.pictures {{ grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); }}
 figure {{ margin: 0; min-width: 0; max-width: 34rem; }}
 figure svg {{ display: block; width: 100%; height: auto; }}
 figure.wide {{ max-width: 52rem; }}

@@ -119,7 +119,7 @@ def cycle(subject: Subject) -> str:
                 "course of the run until it is settled: stroke of every cycle",
             )
         )
-    return section("Cycle", f'<div class="grid">{"".join(pictures)}</div>', missing)
+    return section("Cycle", f'<div class="grid pictures">{"".join(pictures)}</div>', missing)
 
 
 def stability(subject: Subject) -> str:
