@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.batch.many import steady_states
-from saleg.checks import a, checked, number
+from saleg.checks import TEXT, a, checked, each, number
 from saleg.engine import Engine
 from saleg.errors import UnknownPath
 from saleg.quantities import as_float
@@ -45,7 +45,13 @@ MAIN_FIGURES = (
 )
 
 
-@checked(engine=a(Engine), change=number(low=1e-6, high=0.2))
+@checked(
+    engine=a(Engine),
+    inputs=each(TEXT, "paths"),
+    figures=each(TEXT, "names of figures"),
+    change=number(low=1e-6, high=0.2),
+    rtol=number(low=1e-13, high=1e-3),
+)
 def elasticities(
     engine: Engine,
     inputs: Sequence[str] = MAIN_INPUTS,
