@@ -6,3 +6,5 @@ what nobody asks for is neither computed nor stepped.
 
 MOTORED_PRESSURE_IS_WANTED = True
 CURRENT_IS_WANTED = True
+#: Whether the alternator may be a motor: a controller commands the engine.
+MOTORING_IS_POSSIBLE = True

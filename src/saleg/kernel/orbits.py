@@ -90,6 +90,14 @@ def put_down(searches, row, mapping, iterates):
 
 
 @compiled
+def keep_strokes(searches, row, mapping):
+    """Copy the two strokes of the cycle of an engine out of the return map."""
+    for stroke in range(2):
+        strokes = mapping.integration.tables.strokes
+        copy_row(searches.strokes, 2 * row + stroke, strokes, stroke)
+
+
+@compiled
 def begin_on_the_left(mapping, iterates, found):
     """Take the cycle just recorded from its left dead centre, half a cycle on."""
     run = mapping.integration
@@ -114,6 +122,5 @@ def find_orbits(mapping, max_maps, tolerance, iterates, searches):
         put_down(searches, row, mapping, iterates)
         if code == END_OF_TIME and run.engine[0].direction <= 0.0:
             begin_on_the_left(mapping, iterates, searches.spare[0])
-        for stroke in range(2):
-            copy_row(searches.strokes, 2 * row + stroke, run.tables.strokes, stroke)
+        keep_strokes(searches, row, mapping)
     return 0

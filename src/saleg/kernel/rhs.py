@@ -36,7 +36,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.logarithms import Logarithms
-from saleg.kernel.needs import CURRENT_IS_WANTED, MOTORED_PRESSURE_IS_WANTED
+from saleg.kernel.needs import CURRENT_IS_WANTED, MOTORED_PRESSURE_IS_WANTED, MOTORING_IS_POSSIBLE
 from saleg.kernel.slots import (
     actuators_motor_power,
     alternator_current_rate,
@@ -57,6 +57,7 @@ from saleg.kernel.slots import (
 )
 from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Charge, Gas, Motion
+from saleg.laws.choice import any_of, where
 
 # How near a breakpoint counts as reached, over the half stroke or the duration of the combustion,
 # and how far beside it is beyond it.
@@ -93,7 +94,7 @@ def gas_at(E, C, side, x, v, p, p_motored):
         bore=c.bore,
         mean_piston_speed=E.mean_piston_speed,
         wall_temperature=c.wall_temperature,
-        burning=1.0 if c.mode == BURNING else 0.0,
+        burning=where(c.mode == BURNING, 1.0, 0.0),
         clearance_rate=c.sign * v,
         p_rate=0.0,
     )
@@ -146,11 +147,13 @@ def heat_loss(P, C, side, gas, charge, logarithms):
 def heat_release(P, C, side, t):
     """Heat released by combustion [W], Eq. 53."""
     c = C[side]
-    if c.mode != BURNING:
-        return 0.0
-    u = min(max((t - c.t_ignition) / c.duration, c.first_phase), c.last_phase)
-    energy = c.fuel_to_burn * c.lower_heating_value
-    return energy / c.duration * heat_release_burn_rate(P, side, u)
+    released, burning = 0.0, c.mode == BURNING
+    if any_of(burning):
+        u = min(max((t - c.t_ignition) / c.duration, c.first_phase), c.last_phase)
+        energy = c.fuel_to_burn * c.lower_heating_value
+        flow = energy / c.duration * heat_release_burn_rate(P, side, u)
+        released = where(burning, flow, 0.0)
+    return released
 
 
 @inline
@@ -187,36 +190,39 @@ class ChamberRates(NamedTuple):
 def chamber_rates(P, E, C, side, t, y, motored):
     """Pressure, rates and heat flows of one chamber."""
     c = C[side]
-    if c.mode == OPEN:
-        return ChamberRates(c.intake_pressure, 0.0, 0.0, 0.0, 0.0, 0.0)
-    clearance_rate = c.sign * y[V]
-    ln_clearance = ln_clearance_of(C, side, y[X])
-    ln_p = y[THETA + side] - G0 * ln_clearance
-    p = p_motored = exp(ln_p)
-    if MOTORED_PRESSURE_IS_WANTED and motored:
-        p_motored = exp(y[MOTORED + side] - G0 * ln_clearance)
-    gas = gas_at(E, C, side, y[X], y[V], p, p_motored)
-    charge = charge_of(E, C, side)
-    released = heat_release(P, C, side, t)
-    heat_constants = (c.heat_first, c.heat_second, c.heat_third)
-    logarithms = logarithms_of(C, side, ln_clearance, ln_p, heat_constants)
-    lost = heat_loss(P, C, side, gas, charge, logarithms)
-    rate = theta_rate(P, side, gas, clearance_rate, released - lost)
-    ignition = 0.0
-    if c.armed > DISARMED and c.mode == CLOSED:
-        relative_rate = rate - G0 * clearance_rate / gas.clearance
-        rising = with_pressure_rate(gas, gas.p * relative_rate)
-        constants = (c.ignition_first, c.ignition_second, c.ignition_third)
-        logarithms = logarithms_of(C, side, ln_clearance, ln_p, constants)
-        ignition = ignition_rate(P, side, rising, charge, logarithms)
-    motored_rate = 0.0
-    if MOTORED_PRESSURE_IS_WANTED and motored:
-        ln_p_motored = y[MOTORED + side] - G0 * ln_clearance
-        cold = motored_gas(gas, gas.p_motored * gas.V * c.per_mass_gas)
-        logarithms = logarithms_of(C, side, ln_clearance, ln_p_motored, heat_constants)
-        cooled = heat_loss(P, C, side, cold, charge, logarithms)
-        motored_rate = theta_rate(P, side, cold, clearance_rate, -cooled)
-    return ChamberRates(gas.p, rate, ignition, motored_rate, released, lost)
+    p, closed = c.intake_pressure, c.mode != OPEN
+    rate, ignition, motored_rate, released, lost = 0.0, 0.0, 0.0, 0.0, 0.0
+    if any_of(closed):
+        clearance_rate = c.sign * y[V]
+        ln_clearance = ln_clearance_of(C, side, y[X])
+        ln_p = y[THETA + side] - G0 * ln_clearance
+        p_closed = p_motored = exp(ln_p)
+        if MOTORED_PRESSURE_IS_WANTED and motored:
+            p_motored = exp(y[MOTORED + side] - G0 * ln_clearance)
+        gas = gas_at(E, C, side, y[X], y[V], p_closed, p_motored)
+        charge = charge_of(E, C, side)
+        heat_constants = (c.heat_first, c.heat_second, c.heat_third)
+        logarithms = logarithms_of(C, side, ln_clearance, ln_p, heat_constants)
+        heat_released = heat_release(P, C, side, t)
+        heat_lost = heat_loss(P, C, side, gas, charge, logarithms)
+        rate_closed = theta_rate(P, side, gas, clearance_rate, heat_released - heat_lost)
+        lights = (c.armed > DISARMED) & (c.mode == CLOSED)
+        if any_of(lights):
+            relative_rate = rate_closed - G0 * clearance_rate / gas.clearance
+            rising = with_pressure_rate(gas, gas.p * relative_rate)
+            constants = (c.ignition_first, c.ignition_second, c.ignition_third)
+            logarithms = logarithms_of(C, side, ln_clearance, ln_p, constants)
+            ignition = where(lights, ignition_rate(P, side, rising, charge, logarithms), 0.0)
+        if MOTORED_PRESSURE_IS_WANTED and motored:
+            ln_p_motored = y[MOTORED + side] - G0 * ln_clearance
+            cold = motored_gas(gas, gas.p_motored * gas.V * c.per_mass_gas)
+            logarithms = logarithms_of(C, side, ln_clearance, ln_p_motored, heat_constants)
+            cooled = heat_loss(P, C, side, cold, charge, logarithms)
+            cold_rate = theta_rate(P, side, cold, clearance_rate, -cooled)
+            motored_rate = where(closed, cold_rate, 0.0)
+        p, rate = where(closed, p_closed, p), where(closed, rate_closed, 0.0)
+        released, lost = where(closed, heat_released, 0.0), where(closed, heat_lost, 0.0)
+    return ChamberRates(p, rate, ignition, motored_rate, released, lost)
 
 
 @inline
@@ -231,7 +237,7 @@ def write_chamber(C, side, v, rates, dy):
     dy[N_STATE + HEAT_RELEASED + side] = rates.released
     dy[N_STATE + HEAT_LOST + side] = rates.lost
     dy[N_STATE + GAS_WORK + side] = power
-    dy[N_STATE + PORT_WORK + side] = power if c.mode == OPEN else 0.0
+    dy[N_STATE + PORT_WORK + side] = where(c.mode == OPEN, power, 0.0)
 
 
 @inline
@@ -250,7 +256,7 @@ def motor_angle(E, t):
 @inline
 def alternator_action(P, E, t, motion):
     """Force of the alternator against positive velocity [N] and the power it delivers [W]."""
-    if E.motoring > 0.0:
+    if MOTORING_IS_POSSIBLE and E.motoring > 0.0:
         force = -E.motor_amplitude * sin(motor_angle(E, t))
         return force, actuators_motor_power(P, force * motion.v)
     force = alternator_force(P, E.load_weight, motion)

@@ -7,6 +7,7 @@ from saleg.kernel.general import take_general_step
 from saleg.kernel.jit import inline
 from saleg.kernel.layout import CURRENT, IGNITION, MOTORED, THETA, V, X
 from saleg.kernel.needs import CURRENT_IS_WANTED, MOTORED_PRESSURE_IS_WANTED
+from saleg.laws.choice import where
 
 
 @inline
@@ -45,4 +46,4 @@ def error_norm(E, h, y, y_new, k, tolerance):
     if CURRENT_IS_WANTED:
         error = abs(defect(k, CURRENT)) / E.current_scale
         worst, total = max(worst, error), total + error
-    return h * worst / tolerance if isfinite(total) else inf
+    return where(isfinite(total), h * worst / tolerance, inf)

@@ -68,6 +68,7 @@ from saleg.kernel.slots import (
 )
 from saleg.kernel.state import begin_stroke, clearance_of
 from saleg.laws.arguments import Motion, Stroke
+from saleg.laws.choice import where
 
 # Longest first step of a combustion, over its duration.
 FIRST_OF_BURN = 0.1
@@ -304,8 +305,8 @@ def regulate(P, E, C, y):
 def misfires(E, C, side):
     """Whether a chamber that begins to expand holds a charge that should have lit."""
     c = C[side]
-    due = c.armed == ARMED or c.armed == FAILING
-    return due and c.mode == CLOSED and c.sign * E.direction > 0.0
+    due = (c.armed == ARMED) | (c.armed == FAILING)
+    return due & (c.mode == CLOSED) & (c.sign * E.direction > 0.0)
 
 
 @inline
@@ -315,20 +316,18 @@ def ports_due(E, C, side, y):
     beyond = clearance_of(C, side, y[X]) - c.port
     slack = 1e-14 * E.length_scale
     outward = c.sign * E.direction
-    if c.mode == OPEN:
-        return outward < 0.0 and beyond <= slack
-    return outward > 0.0 and beyond >= -slack
+    opens, closes = (outward > 0.0) & (beyond >= -slack), (outward < 0.0) & (beyond <= slack)
+    return where(c.mode == OPEN, closes, opens)
 
 
 @inline
-def is_due(E, C, side, y):
+def is_due(E, C, side, t, y):
     """Whether any change of a chamber is due, or a breakpoint of its burn rate is reached."""
     c = C[side]
-    if c.mode == BURNING and E.t >= c.t_breakpoint:
-        return True
-    if c.renewal_due > 0.0 or misfires(E, C, side) or ports_due(E, C, side, y):
-        return True
-    return c.mode == CLOSED and c.armed > DISARMED and y[IGNITION + side] >= 1.0
+    breaks = (c.mode == BURNING) & (t >= c.t_breakpoint)
+    changes = (c.renewal_due > 0.0) | misfires(E, C, side) | ports_due(E, C, side, y)
+    lights = (c.mode == CLOSED) & (c.armed > DISARMED) & (y[IGNITION + side] >= 1.0)
+    return breaks | changes | lights
 
 
 @compiled

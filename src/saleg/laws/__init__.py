@@ -23,6 +23,7 @@ from saleg.laws.base import (
     Springs,
     Validity,
 )
+from saleg.laws.choice import any_of, where
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     ActuatorLaw,
@@ -152,4 +153,6 @@ __all__ = [
     "ViscousFriction",
     "Wiebe",
     "Woschni",
+    "any_of",
+    "where",
 ]
