@@ -252,7 +252,7 @@ def run_on(run):
         # What is due at the start.
         if switch(P, E, C, O, y, -1, peaks, tables, control):
             begin_anew(P, E, C, O, y, k[0], tables)
-        if peaks[PEAK_PRESSURE] == 0.0:  # nothing of this stroke has been watched yet
+        if O.peaks > 0 and peaks[PEAK_PRESSURE] == 0.0:  # nothing has been watched of this stroke
             watch_point(C, y, k[0], peaks)
     if O.part == BEGIN:
         return GOES_ON
@@ -275,7 +275,7 @@ def run_on(run):
         if O.dense > 0:
             observe_within(P, E, C, O, tableau, h, y, k, spare, tables)
         accept(E, O, h, full, end, y, y_new, k, stages)
-        if landed >= 0:
+        if O.peaks > 0 and landed >= 0:
             watch_point(C, y, k[0], peaks)
         if O.history > 0 and (landed >= 0 or E.steps % O.history < 1.0):
             observe_now(P, E, C, O, y, k[0], tables)
@@ -293,7 +293,7 @@ def run_on(run):
             begin_anew(P, E, C, O, y, k[0], tables)
         if code >= 0:
             return code
-        if changed:
+        if O.peaks > 0 and changed:
             watch_point(C, y, k[0], peaks)
         if O.part == END_OF_STEP:
             return GOES_ON

@@ -21,7 +21,6 @@ def find_side_by_side(
     laws = compiled_engine(return_map.engine).parameters
     steps = address_of_steps(kernel_of_lanes(return_map.engine, width), group, laws)
     iterates = Iterates(*(np.repeat(part[np.newaxis], width, axis=0) for part in iterates_from()))
-    row, cycle = np.full(width, -1), np.zeros(width, np.int64)
-    lanes = Lanes(group, steps, iterates, row, cycle)
+    lanes = Lanes(group, steps, iterates, np.full(width, -1))
     arguments = (lanes, mapping.mirrored, max_maps, tolerance, searches)
     return_map.kernel.call("find_orbits_side_by_side", *arguments)

@@ -14,7 +14,7 @@ from saleg.compiler.lanes.values import lane_bits
 from saleg.kernel.events import event_is_possible, event_value, is_sound, next_time_event
 from saleg.kernel.integrate import control_step, proposal, shrunk, smallest_step
 from saleg.kernel.jit import cached, compiled, inline
-from saleg.kernel.lanes.group import put, run_of, take
+from saleg.kernel.lanes.group import N_STEPPED, UNWATCHED, put, run_of, take
 from saleg.compiler.lanes.width import WIDTH
 from saleg.kernel.layout import (
     BUFFER_FULL,
@@ -133,7 +133,7 @@ def judge(E, C, O, S, y, y_new, k):
     return lane_bits(happens), lane_bits(over)
 
 
-@compiled
+@inline
 def put_in(group, lane):
     """Copy a lane into the rows, its next step due."""
     rows, flat, runs = group.rows, group.flat, group.runs
@@ -145,33 +145,38 @@ def put_in(group, lane):
         put(rows.laws, lane, WIDTH, flat.laws[lane])
         group.fresh[lane] = 0
     step.busy, step.moved = 1.0, 1.0
-    for peak in range(N_PEAKS):
-        step.peaks[peak], step.trail[peak] = peaks[peak], trail[peak]
-    step.trail[N_PEAKS] = trail[N_PEAKS]
-    put(rows.step, lane, WIDTH, flat.step[lane])
-    put(rows.engine, lane, WIDTH, flat.engine[lane])
+    if step.watched > 0.0:
+        for peak in range(N_PEAKS):
+            step.peaks[peak], step.trail[peak] = peaks[peak], trail[peak]
+        step.trail[N_PEAKS] = trail[N_PEAKS]
+        put(rows.step, lane, WIDTH, flat.step[lane])
+    else:
+        put(rows.step, lane, WIDTH, flat.step[lane, :UNWATCHED])
+    put(rows.engine, lane, WIDTH, flat.engine[lane, :N_STEPPED])
     put(rows.chambers, lane, WIDTH, flat.chambers[lane])
     put(rows.y, lane, WIDTH, runs.y[lane])
     put(rows.rates, lane, WIDTH, runs.scratch.rates[lane, 0])
 
 
-@compiled
+@inline
 def take_out(group, lane):
     """Copy a lane out of the rows."""
     rows, flat, runs = group.rows, group.flat, group.runs
     step, trail = group.step[lane, 0], runs.scratch.spare.trail[lane]
-    take(rows.step, lane, WIDTH, flat.step[lane])
-    take(rows.engine, lane, WIDTH, flat.engine[lane])
+    take(rows.step, lane, WIDTH, flat.step[lane, :UNWATCHED])
+    take(rows.engine, lane, WIDTH, flat.engine[lane, :N_STEPPED])
     take(rows.y, lane, WIDTH, runs.y[lane])
     take(rows.y_new, lane, WIDTH, runs.scratch.y_new[lane])
     rates = runs.scratch.rates[lane]
     take(rows.rates, lane, WIDTH, rates[0])
     take(rows.rates[STAGES * N_ALL * WIDTH :], lane, WIDTH, rates[STAGES])
-    for n in range(N_PEAKS + 1):
-        trail[n] = step.trail[n]
+    if step.watched > 0.0:
+        take(rows.step, lane, WIDTH, flat.step[lane])
+        for n in range(N_PEAKS + 1):
+            trail[n] = step.trail[n]
 
 
-@compiled
+@inline
 def end_step(group, lane):
     """End a step in which something happens, as for one engine; why the integrator came back."""
     take_out(group, lane)
@@ -183,7 +188,7 @@ def end_step(group, lane):
     return run_at(group.address, run)
 
 
-@compiled
+@inline
 def reason_of(group, lane):
     """Why a lane cannot go on."""
     take_out(group, lane)
@@ -197,15 +202,15 @@ def reason_of(group, lane):
     return STEP_FAILURE
 
 
-@compiled
+@inline
 def leave(group, lane, code):
     """Let a lane rest: there is nothing to step until another engine is in it."""
     group.codes[lane] = code
     group.step[lane, 0].busy, group.step[lane, 0].h = 0.0, 0.0
-    put(group.rows.step, lane, WIDTH, group.flat.step[lane])
+    put(group.rows.step, lane, WIDTH, group.flat.step[lane, :UNWATCHED])
 
 
-@compiled
+@inline
 def see_to(group, happens, over):
     """Do by each lane what cannot be done by all; how many of them have come back."""
     count = 0
@@ -225,9 +230,9 @@ def see_to(group, happens, over):
 
 @cached
 def advance(group):
-    """Step all lanes until at least one has returned, or cannot go on; how many have.
+    """Step all lanes until they have returned, or cannot go on.
 
-    Takes a :class:`~saleg.kernel.lanes.group.Group`, whose `codes` say which.
+    Takes a :class:`~saleg.kernel.lanes.group.Group`, whose `codes` say which of them.
     """
     runs, rows = group.runs, group.rows
     P, E = records_of(rows.laws, group.law, WIDTH), records_of(rows.engine, runs.engine, WIDTH)
@@ -235,14 +240,15 @@ def advance(group):
     y, y_new = numbers_of(rows.y, N_ALL, WIDTH), numbers_of(rows.y_new, N_ALL, WIDTH)
     k = tables_of(rows.rates, N_RATES, N_ALL, WIDTH)
     O = runs.options[0, 0]
+    busy = 0
     for lane in range(WIDTH):
         if group.fresh[lane] > 0:
             put_in(group, lane)
-    count = 0
-    while count == 0:
+        busy += group.codes[lane] == GOES_ON
+    while busy > 0:
         propose(E, C, O, S, y, k[0])
         take_adaptive_step(P, E, C, E.t, S.h, y, k, y_new, O.motored)
         happens, over = judge(E, C, O, S, y, y_new, k)
         if (happens | over) != 0:
-            count = see_to(group, happens, over)
-    return count
+            busy -= see_to(group, happens, over)
+    return 0

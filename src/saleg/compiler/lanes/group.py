@@ -34,7 +34,7 @@ def group_of(run: Integration, address: int, width: int) -> Group:
     counts = (part.shape[1] for part in flat[:3])
     counts = (*counts, layout.N_ALL, layout.N_ALL, (stages + 1) * layout.N_ALL, flat.step.shape[1])
     rows = Rows(*(np.zeros(count * width) for count in counts))
-    fresh, codes = np.zeros(width, np.int64), np.full(width, layout.GOES_ON)
+    fresh, codes = np.zeros(width, np.int64), np.full(width, layout.NOT_FOUND)
     return Group(address, run.laws, runs, flat, rows, step, fresh, codes)
 
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from saleg.kernel.jit import inline
-from saleg.kernel.layout import N_PEAKS
+from saleg.kernel.layout import ENGINE_RECORD, N_PEAKS
 from saleg.kernel.tuples import Integration, Iterates, Scratch, Spare, Tables, Words
 
 #: What is remembered of a step, of each lane: its length and its end, the event it is aimed at;
@@ -33,6 +33,10 @@ STEP_RECORD = np.dtype(
     ]
     + [("peaks", np.float64, (N_PEAKS,)), ("trail", np.float64, (N_PEAKS + 1,))]
 )
+# Fields of the engine's record that steps use or change, the first of it; and those of a step
+# whose peaks are not looked for.
+N_STEPPED = ENGINE_RECORD.names.index("evaluations") + 1
+UNWATCHED = STEP_RECORD.names.index("peaks")
 
 
 class Rows(NamedTuple):
@@ -85,7 +89,7 @@ class Group(NamedTuple):
     fresh : ndarray of int, shape (W,)
         Whether a lane's numbers have yet to be copied into the rows.
     codes : ndarray of int, shape (W,)
-        Why a lane came back; GOES_ON if it has not.
+        Why a lane came back; GOES_ON if it has yet to.
     """
 
     address: int

@@ -1,15 +1,16 @@
 """The search for fixed points of the return maps of many engines, W of them side by side.
 
 What happens at a dead centre happens to each lane by itself, with the functions of
-:mod:`saleg.kernel.orbit`. A lane whose search is over takes up the next engine at once. No engine
-knows which others are beside it.
+:mod:`saleg.kernel.orbit`, while the others are there too: so all lanes do the same at the same time,
+for instance compress on the right, and what none of them does costs nothing. A lane whose search is
+over takes up the next engine. No engine knows which others are beside it.
 """
 
 from typing import Any, NamedTuple
 
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.lanes.group import Group, iterates_of, run_of
-from saleg.kernel.layout import BEGIN, END_OF_TIME, GOES_ON, NOT_FOUND, WHOLE
+from saleg.kernel.layout import BEGIN, END_OF_TIME, GOES_ON, N_VECTOR, NOT_FOUND, WHOLE
 from saleg.kernel.orbit import (
     begin_cycle,
     begin_return,
@@ -36,15 +37,12 @@ class Lanes(NamedTuple):
         Vectors of each lane: the first index of every array is the lane.
     row : ndarray of int, shape (W,)
         Row of the engine in each lane, -1 if there is none.
-    cycle : ndarray of int, shape (W,)
-        Whether it has been found, and is on its whole cycle.
     """
 
     group: Group
     address: int
     iterates: Iterates
     row: Any
-    cycle: Any
 
 
 @inline
@@ -64,65 +62,103 @@ def set_out(lanes, lane, mirrored):
 
 
 @compiled
-def begin_row(lanes, lane, row, mirrored, searches):
-    """Take up an engine and set out."""
+def begin_search_of(lanes, lane, row, mirrored, searches):
+    """Take up an engine and begin its search."""
     mapping = mapping_of(lanes, lane, mirrored)
     take_up(searches, row, mapping)
     begin_search(mapping.integration, iterates_of(lanes.iterates, lane))
-    lanes.row[lane], lanes.cycle[lane] = row, 0
+    lanes.row[lane] = row
     set_out(lanes, lane, mirrored)
 
 
 @compiled
-def end_row(lanes, lane, mirrored, code, searches):
-    """Put down an engine whose search is over."""
-    mapping, row = mapping_of(lanes, lane, mirrored), lanes.row[lane]
-    iterates = iterates_of(lanes.iterates, lane)
-    run = mapping.integration
+def begin_cycle_of(lanes, lane, row, searches):
+    """Take up an engine whose fixed point has been found and begin its whole cycle."""
+    mapping, iterates = mapping_of(lanes, lane, False), iterates_of(lanes.iterates, lane)
+    take_up(searches, row, mapping)
+    for n in range(N_VECTOR):
+        iterates.residual[n] = searches.residual[row, n]
+    begin_cycle(mapping.integration, iterates)
+    lanes.row[lane] = row
+    set_out(lanes, lane, False)
+
+
+@compiled
+def end_row(lanes, lane, mapping, code, searches):
+    """Put down an engine."""
+    row = lanes.row[lane]
     searches.codes[row] = code
-    put_down(searches, row, mapping, iterates)
-    if code == END_OF_TIME and run.engine[0].direction <= 0.0:
-        run.options[0].part = WHOLE
-        begin_on_the_left(mapping, iterates, searches.spare[0])
-    keep_strokes(searches, row, mapping)
-    run.options[0].peaks = 0
+    put_down(searches, row, mapping, iterates_of(lanes.iterates, lane))
     lanes.row[lane] = -1
 
 
 @compiled
-def go_on(lanes, lane, mirrored, max_maps, tolerance, searches):
-    """Do what is due when a lane has come back: judge the map, or the cycle; set out again."""
-    run, iterates = run_of(lanes.group.runs, lane), iterates_of(lanes.iterates, lane)
-    found, in_cycle = searches.found[lanes.row[lane]], lanes.cycle[lane] > 0
-    code = end_return(run, mirrored and not in_cycle, lanes.group.codes[lane])
-    if in_cycle:
-        end_cycle(run, iterates, found)
-        end_row(lanes, lane, mirrored, code, searches)
-    elif code != END_OF_TIME:
-        end_row(lanes, lane, mirrored, code, searches)
-    elif has_settled(run, mirrored, tolerance, iterates, found):
-        begin_cycle(run, iterates)
-        lanes.cycle[lane] = 1
-        set_out(lanes, lane, False)
+def end_map(lanes, lane, mirrored, max_maps, tolerance, searches):
+    """Judge the map a lane has come back from; set out again unless its search is over."""
+    mapping, iterates = mapping_of(lanes, lane, mirrored), iterates_of(lanes.iterates, lane)
+    run, found = mapping.integration, searches.found[lanes.row[lane]]
+    code = end_return(run, mirrored, lanes.group.codes[lane])
+    if code != END_OF_TIME or has_settled(run, mirrored, tolerance, iterates, found):
+        end_row(lanes, lane, mapping, code, searches)
     elif found.maps >= max_maps:
-        end_row(lanes, lane, mirrored, NOT_FOUND, searches)
+        end_row(lanes, lane, mapping, NOT_FOUND, searches)
     else:
         set_out(lanes, lane, mirrored)
+
+
+@compiled
+def end_cycle_of(lanes, lane, mirrored, searches):
+    """Judge and record the whole cycle a lane has come back from."""
+    mapping, iterates = mapping_of(lanes, lane, mirrored), iterates_of(lanes.iterates, lane)
+    run, row = mapping.integration, lanes.row[lane]
+    code = end_return(run, False, lanes.group.codes[lane])
+    end_cycle(run, iterates, searches.found[row])
+    end_row(lanes, lane, mapping, code, searches)
+    if code == END_OF_TIME and run.engine[0].direction <= 0.0:
+        run.options[0].part = WHOLE
+        begin_on_the_left(mapping, iterates, searches.spare[0])
+    keep_strokes(searches, row, mapping)
+
+
+@compiled
+def search_all(lanes, mirrored, max_maps, tolerance, searches):
+    """Look for the fixed point of every engine."""
+    begun, busy = 0, True
+    while busy:
+        busy = False
+        for lane in range(lanes.row.shape[0]):
+            if lanes.row[lane] >= 0:
+                end_map(lanes, lane, mirrored, max_maps, tolerance, searches)
+            if lanes.row[lane] < 0 and begun < searches.codes.shape[0]:
+                begin_search_of(lanes, lane, begun, mirrored, searches)
+                begun += 1
+            busy = busy or lanes.row[lane] >= 0
+        if busy:
+            run_at(lanes.address, lanes.group)
+
+
+@compiled
+def take_all_cycles(lanes, mirrored, searches):
+    """Take the whole cycle of every engine whose fixed point has been found."""
+    begun, busy = 0, True
+    while busy:
+        busy = False
+        for lane in range(lanes.row.shape[0]):
+            if lanes.row[lane] >= 0:
+                end_cycle_of(lanes, lane, mirrored, searches)
+            while begun < searches.codes.shape[0] and searches.codes[begun] != END_OF_TIME:
+                begun += 1
+            if begun < searches.codes.shape[0]:
+                begin_cycle_of(lanes, lane, begun, searches)
+                begun += 1
+            busy = busy or lanes.row[lane] >= 0
+        if busy:
+            run_at(lanes.address, lanes.group)
 
 
 @cached
 def find_orbits_side_by_side(lanes, mirrored, max_maps, tolerance, searches):
     """Entry point: look for the fixed point of every engine."""
-    width, count, begun = lanes.row.shape[0], searches.codes.shape[0], 0
-    while True:
-        busy = False
-        for lane in range(width):
-            if lanes.row[lane] >= 0 and lanes.group.codes[lane] != GOES_ON:
-                go_on(lanes, lane, mirrored, max_maps, tolerance, searches)
-            if lanes.row[lane] < 0 and begun < count:
-                begin_row(lanes, lane, begun, mirrored, searches)
-                begun += 1
-            busy = busy or lanes.row[lane] >= 0
-        if not busy:
-            return 0
-        run_at(lanes.address, lanes.group)
+    search_all(lanes, mirrored, max_maps, tolerance, searches)
+    take_all_cycles(lanes, mirrored, searches)
+    return 0
