@@ -24,6 +24,7 @@ from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
 from saleg.status import Status
+from saleg.steady.lanes import find_each
 from saleg.steady.return_map import (
     LONGEST,
     ReturnMap,
@@ -187,7 +188,7 @@ def searched(
     states = begin.some(np.arange(rows.count))
     return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
     room = _room(rows, states)
-    return_map.find_each(limits.max_maps, RESIDUAL * rtol, room)
+    find_each(return_map, limits.max_maps, RESIDUAL * rtol, room)
     strokes = room.strokes.reshape(-1, 2)
     good = room.codes == layout.END_OF_TIME
     good &= room.found["missed"] <= limits.missed * rtol
