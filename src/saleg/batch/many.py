@@ -30,6 +30,7 @@ from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance, cycle_figures, is_remarkable, remarks_on
 from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
+from saleg.steady.lanes import MANY
 from saleg.steady.many import Orbits, steady_rows, verdicts
 from saleg.steady.solver import (
     Effort,
@@ -118,13 +119,14 @@ def steady_states(
     check_flag("multipliers", multipliers)
     check_workers(executor, workers)
     work: Callable[[Sequence[Engine]], Columns]
+    count = len(engines) if isinstance(engines, Sequence) else None
     if multipliers:
         row_of = partial(_steady_row, rtol=rtol, multipliers=True, effort=effort)
         work, units = partial(rows_of, row_of), STABILITY_UNITS
     else:
-        work, units = partial(_steady_piece, rtol=rtol, effort=effort), STEADY_UNITS
+        piece = partial(_steady_piece, rtol=rtol, effort=effort, total=count or MANY)
+        work, units = piece, STEADY_UNITS
     if chunk is None:
-        count = len(engines) if isinstance(engines, Sequence) else None
         chunk = suitable_chunk(count, workers)
     return batch_table(work, engines, units, kernel_for, executor, workers, chunk)
 
@@ -187,7 +189,12 @@ def batch_table(
 
 
 def steady_columns(
-    lots: Iterable[Rows], row_of: Callable[[int], Row], count: int, rtol: float, effort: Effort
+    lots: Iterable[Rows],
+    row_of: Callable[[int], Row],
+    count: int,
+    rtol: float,
+    effort: Effort,
+    total: int,
 ) -> Columns:
     """Columns of steady states: of most engines together, of the others one by one.
 
@@ -202,22 +209,24 @@ def steady_columns(
     rtol : float
         Tolerance of the integrator.
     effort : Effort
+    total : int
+        Number of engines in the batch they are a piece of.
     """
     together = [
         (found.rows.places, columns_of(found, cycle_figures_of(found), *verdicts(found, rtol)))
         for rows in lots
-        for found in steady_rows(rows, rtol, effort)
+        for found in steady_rows(rows, rtol, effort, total)
     ]
     return filled_up(count, together, row_of)
 
 
-def _steady_piece(engines: Sequence[Engine], rtol: float, effort: Effort) -> Columns:
-    """Columns of steady states of some engines."""
+def _steady_piece(engines: Sequence[Engine], rtol: float, effort: Effort, total: int) -> Columns:
+    """Columns of steady states of some engines, of a batch of so many."""
 
     def row_of(place: int) -> Row:
         return _steady_row(engines[place], rtol, False, effort)
 
-    return steady_columns(rows_by_make(engines), row_of, len(engines), rtol, effort)
+    return steady_columns(rows_by_make(engines), row_of, len(engines), rtol, effort, total)
 
 
 def cycle_figures_of(found: Orbits) -> dict[str, Any]:

@@ -189,4 +189,5 @@ def _composed(
         text = compose(classes, modules, injected=injected, **given)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     # What is compiled from bytecode is not kept: the text does not say all of it.
-    return Kernel(*load(text, "kernel" if width == 1 else "lanes", injected, keeps=not injected), own)
+    kind = "kernel" if width == 1 else "lanes"
+    return Kernel(*load(text, kind, injected, keeps=not injected), own)

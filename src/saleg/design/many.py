@@ -68,9 +68,9 @@ class DesignSolver:
 class DesignSolverOfColumns(DesignSolver):
     """The same of designs that are independent of each other, without their stability."""
 
-    def columns(self, points: Sequence[Values]) -> Columns:
-        """Rows of some designs, column by column."""
-        together = solved_together(self._design, points, self._rtol, self._effort)
+    def columns(self, points: Sequence[Values], total: int) -> Columns:
+        """Rows of some designs of a batch of so many, column by column."""
+        together = solved_together(self._design, points, self._rtol, self._effort, total)
         return filled_up(len(points), together, lambda place: self(points[place]))
 
 

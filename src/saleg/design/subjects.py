@@ -114,12 +114,12 @@ class EngineSolver:
 class EngineSolverOfColumns(EngineSolver):
     """The same without their stability, of many points at once."""
 
-    def columns(self, points: Sequence[Values]) -> Columns:
-        """Rows of some points, column by column."""
+    def columns(self, points: Sequence[Values], total: int) -> Columns:
+        """Rows of some points of a sweep of so many, column by column."""
         columns = {name: np.array([values[name] for values in points]) for name in points[0]}
         lots = rows_of_columns(self.engine, columns)
         return steady_columns(
-            lots, lambda place: self(points[place]), len(points), self.rtol, self.effort
+            lots, lambda place: self(points[place]), len(points), self.rtol, self.effort, total
         )
 
 

@@ -52,7 +52,7 @@ class Designs(NamedTuple):
 
 
 def solved_together(
-    design: Design, points: Sequence[Values], rtol: float, effort: Effort
+    design: Design, points: Sequence[Values], rtol: float, effort: Effort, total: int
 ) -> list[tuple[np.ndarray, Columns]]:
     """Columns of those designs whose loop closes where the first start leads, and their places.
 
@@ -64,13 +64,15 @@ def solved_together(
     rtol : float
         Tolerance of the integrator, and of the mass.
     effort : Effort
+    total : int
+        Number of designs in the batch they are a piece of.
     """
     designs = Designs(design, {name: np.array([p[name] for p in points]) for name in points[0]})
     if not all(_is_ours(getattr(design.masses, f.name)) for f in dataclasses.fields(design.masses)):
         return []
     lots = []
     for lot, mirrored in _lots(designs, len(points)):
-        orbits = _closed(designs, lot, mirrored, rtol, effort)
+        orbits = _closed(designs, lot, mirrored, rtol, effort, total)
         if orbits is not None:
             lots += _columns(designs, orbits, rtol)
     return lots
@@ -96,7 +98,7 @@ def _lots(designs: Designs, count: int) -> list[tuple[Rows, bool]]:
 
 
 def _closed(
-    designs: Designs, lot: Rows, mirrored: bool, rtol: float, effort: Effort
+    designs: Designs, lot: Rows, mirrored: bool, rtol: float, effort: Effort, total: int
 ) -> Orbits | None:
     """Orbits whose mass is that of their components, the mass renewed by every map."""
     numbers = np.full((1 + len(LAW), lot.count), math.nan)
@@ -116,7 +118,7 @@ def _closed(
 
     taken = (QUICK_MAPS, QUICK_STEPS) if effort is Effort.QUICK else (MAX_MAPS, STEPS_PER_CALL)
     limits = Limits(*taken, MAX_MISSED)
-    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, tell)
+    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, total, tell)
     return None if orbits is None else orbits._replace(rows=_of_mass(orbits.rows, orbits.mass))
 
 

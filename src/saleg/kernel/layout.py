@@ -368,7 +368,7 @@ OPTIONS_RECORD = np.dtype(
         ("stall", np.float64),
         ("last_stroke", np.float64),
         ("longest", np.float64),
-        # Of the one step whose end is asked for, as :func:`good_step` in kernel/integrate.py has it.
+        # Length and end of the one step whose end alone is asked for.
         ("length", np.float64),
         ("end", np.float64),
     ]

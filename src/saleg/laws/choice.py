@@ -15,8 +15,8 @@ Number = TypeVar("Number")
 def where(condition: bool, a: Number, b: Number) -> Number:
     """`a` where a condition holds, else `b`.
 
-    Both are calculated, so both must be calculable: ``where(x > 0.0, math.sqrt(max(x, 0.0)), 0.0)``.
-    Conditions are joined with ``&`` and ``|``.
+    Both are calculated, so both must be calculable everywhere, as in
+    ``where(x > 0.0, math.sqrt(max(x, 0.0)), 0.0)``. Conditions are joined with ``&`` and ``|``.
 
     Parameters
     ----------

@@ -1,16 +1,14 @@
 """Searches for the fixed points of many engines side by side, where that pays.
 
-Compiling a kernel for engines side by side takes some ten seconds of a processor. It is done once
-engines of the same laws have been searched for, one after the other in this process, as long as
-that (:data:`PATIENCE`); whoever has few engines never waits for it, and nobody waits more than
-twice as long as with the better choice. A kernel found on disk is used at once.
+It takes half the time and a kernel of its own, some ten seconds of a processor to compile. So only
+batches of :data:`MANY` engines and more go that way, if that kernel has been compiled before, and
+those of :data:`WORTH_COMPILING` in any case. What is found is the same within the tolerance, not to
+the last bit: therefore the whole batch decides, so that nothing depends on how it is cut.
 """
 
 from __future__ import annotations
 
-import time
 import warnings
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -26,42 +24,21 @@ from saleg.kernel.orbits import Searches
 from saleg.kernel.tuples import Iterates
 from saleg.steady.return_map import ReturnMap, iterates_from
 
-#: Time spent on engines one by one after which a kernel for engines side by side is compiled [s].
-PATIENCE = 10.0
-#: Engines a lane should have at least: the last of them leave lanes empty.
-FEWEST_PER_LANE = 4
-
-
-@dataclass
-class Account:
-    """What is known of a kernel for engines side by side.
-
-    Attributes
-    ----------
-    spent : float
-        Time spent on its engines one by one [s].
-    refused : bool
-        Whether a law cannot be compiled for engines side by side.
-    """
-
-    spent: float = 0.0
-    refused: bool = False
-
-    def pays(self, kernel: Kernel) -> bool:
-        """Whether the kernel is there, or worth its compilation."""
-        return not self.refused and (self.spent >= PATIENCE or kernel.is_kept("advance"))
-
-
-@lru_cache(maxsize=128)
-def account_of(kernel: Kernel) -> Account:
-    """Account of a kernel for engines side by side."""
-    return Account()
+#: Engines in a batch that are searched for side by side, if the kernel for that is there.
+MANY = 500
+#: Engines in a batch for which it is compiled.
+WORTH_COMPILING = 20_000
 
 
 def find_each(
-    return_map: ReturnMap, max_maps: int, tolerance: float, searches: Searches, width: int = WIDTH
+    return_map: ReturnMap,
+    max_maps: int,
+    tolerance: float,
+    searches: Searches,
+    total: int,
+    width: int = WIDTH,
 ) -> None:
-    """Look for the fixed points of many engines of the same laws, side by side where that pays.
+    """Look for the fixed points of engines of the same laws, side by side where that pays.
 
     Parameters
     ----------
@@ -73,6 +50,8 @@ def find_each(
         Residual at a fixed point [-].
     searches : Searches
         The engines; takes what is found.
+    total : int
+        Number of engines in the batch they are a piece of.
     width : int
         Engines side by side.
 
@@ -81,21 +60,40 @@ def find_each(
     RuntimeWarning
         Once, if a law of the user's cannot be compiled for engines side by side.
     """
-    kernel = kernel_of_lanes(return_map.engine, width)
-    account = account_of(kernel)
-    if len(searches.codes) >= FEWEST_PER_LANE * width and account.pays(kernel):
-        try:
-            lanes = lanes_of(return_map, kernel, width)
-        except LawError as error:
-            account.refused = True
-            _say_one_by_one(return_map, str(error))
-        else:
-            arguments = (lanes, return_map.mirrored, max_maps, tolerance, searches)
-            return_map.kernel.call("find_orbits_side_by_side", *arguments)
-            return
-    begun = time.thread_time()
-    return_map.find_each(max_maps, tolerance, searches)
-    account.spent += time.thread_time() - begun
+    lanes = None
+    if total >= MANY:
+        kernel = kernel_of_lanes(return_map.engine, width)
+        if total >= WORTH_COMPILING or _was_there(kernel):
+            lanes = _lanes_if_possible(return_map, kernel, width)
+    if lanes is None:
+        return_map.find_each(max_maps, tolerance, searches)
+    else:
+        arguments = (lanes, return_map.mirrored, max_maps, tolerance, searches)
+        return_map.kernel.call("find_orbits_side_by_side", *arguments)
+
+
+@lru_cache(maxsize=128)
+def _was_there(kernel: Kernel) -> bool:
+    """Whether a kernel had been compiled when this process first asked, and for good."""
+    return kernel.is_kept("advance")
+
+
+def _lanes_if_possible(return_map: ReturnMap, kernel: Kernel, width: int) -> Lanes | None:
+    """Room for searches side by side; None if a law cannot be compiled for that."""
+    if _refused(kernel):
+        return None
+    try:
+        return lanes_of(return_map, kernel, width)
+    except LawError as error:
+        _refused(kernel).append(str(error))
+        _say_one_by_one(return_map, str(error))
+        return None
+
+
+@lru_cache(maxsize=128)
+def _refused(kernel: Kernel) -> list[str]:
+    """Why a kernel cannot be compiled, once that is known."""
+    return []
 
 
 def lanes_of(return_map: ReturnMap, kernel: Kernel, width: int) -> Lanes:

@@ -101,7 +101,7 @@ class Orbits(NamedTuple):
         return Orbits(self.rows.some(chosen), self.mirrored, *rest)
 
 
-def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
+def steady_rows(rows: Rows, rtol: float, effort: Effort, total: int = 1) -> list[Orbits]:
     """Orbits of those among some engines that have one where the first start leads.
 
     Parameters
@@ -111,6 +111,8 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
     rtol : float
         Tolerance of the integrator.
     effort : Effort
+    total : int
+        Number of engines in the batch they are a piece of.
 
     Returns
     -------
@@ -121,7 +123,7 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
     taken = (QUICK_MAPS, QUICK_STEPS) if quick else (MAX_MAPS, THOROUGH_STEPS)
     limits = {True: Limits(*taken, MIRROR_MISSED), False: Limits(*taken, MAX_MISSED)}
     lots = lots_to_search(rows)
-    found = (searched(lot, mirrored, rtol, limits[mirrored]) for lot, mirrored in lots)
+    found = (searched(lot, mirrored, rtol, limits[mirrored], total) for lot, mirrored in lots)
     return [orbits for orbits in found if orbits is not None]
 
 
@@ -163,6 +165,7 @@ def searched(
     mirrored: bool,
     rtol: float,
     limits: Limits,
+    total: int = 1,
     tell: Callable[[States, np.ndarray], None] | None = None,
 ) -> Orbits | None:
     """Search from the first start, and the orbits it has found, if any.
@@ -176,6 +179,8 @@ def searched(
     rtol : float
         Tolerance of the integrator.
     limits : Limits
+    total : int
+        Number of engines in the batch they are a piece of.
     tell : callable, optional
         Writes into the states the search begins with, given whether each row has one.
     """
@@ -188,7 +193,7 @@ def searched(
     states = begin.some(np.arange(rows.count))
     return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
     room = _room(rows, states)
-    find_each(return_map, limits.max_maps, RESIDUAL * rtol, room)
+    find_each(return_map, limits.max_maps, RESIDUAL * rtol, room, total)
     strokes = room.strokes.reshape(-1, 2)
     good = room.codes == layout.END_OF_TIME
     good &= room.found["missed"] <= limits.missed * rtol

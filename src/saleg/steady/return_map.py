@@ -207,7 +207,9 @@ class ReturnMap:
 
     def find_each(self, max_maps: int, tolerance: float, searches: Searches) -> None:
         """Look for the fixed points of many engines of the same laws, one after the other."""
-        self.kernel.call("find_orbits", self.mapping, max_maps, tolerance, iterates_from(), searches)
+        self.kernel.call(
+            "find_orbits", self.mapping, max_maps, tolerance, iterates_from(), searches
+        )
 
     def _do(
         self, task: int, iterates: Iterates, max_maps: int = 0, tolerance: float = 0.0

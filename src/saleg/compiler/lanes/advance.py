@@ -11,11 +11,12 @@ but of all lanes; `S` what is remembered of a step; `O` the options, alike for a
 
 from saleg.compiler.lanes.storage import numbers_of, records_of, rows_of, tables_of
 from saleg.compiler.lanes.values import lane_bits
+from saleg.compiler.lanes.width import WIDTH
+from saleg.kernel.adaptive import take_adaptive_step
 from saleg.kernel.events import event_is_possible, event_value, is_sound, next_time_event
 from saleg.kernel.integrate import control_step, proposal, shrunk, smallest_step
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.lanes.group import N_STEPPED, UNWATCHED, put, run_of, take
-from saleg.compiler.lanes.width import WIDTH
 from saleg.kernel.layout import (
     BUFFER_FULL,
     END_OF_STEP,
@@ -33,7 +34,6 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.peaks import is_costly, is_passed, may_peak, watched
 from saleg.kernel.run_plainly import run_at
-from saleg.kernel.adaptive import take_adaptive_step
 from saleg.kernel.step import error_norm
 from saleg.kernel.switch import is_due
 from saleg.laws.choice import any_of, where

@@ -17,7 +17,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic, overload
 
-from saleg.compiler.lanes.values import DOUBLE, INDEX, WORD, Floats, Mask, call_llvm, constant
+from saleg.compiler.lanes.values import DOUBLE, INDEX, WORD, Floats, call_llvm, constant
 from saleg.compiler.lanes.values import _any_lane as any_lane
 from saleg.compiler.lanes.values import _select as select
 
@@ -50,11 +50,11 @@ L1, L2, L3, L4, L5, L6, L7 = (
 
 
 @intrinsic
-def fma(context, a, b, c):  # type: ignore[no-untyped-def]
+def fma(context, a, b, c):
     """``a b + c``, rounded once."""
     kind = next(one for one in (a, b, c) if isinstance(one, Floats))
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         values = [
             context.cast(builder, value, given, kind)
             for value, given in zip(arguments, called.args, strict=True)
@@ -65,10 +65,10 @@ def fma(context, a, b, c):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def times_power_of_two(context, x, rounded):  # type: ignore[no-untyped-def]
+def times_power_of_two(context, x, rounded):
     """``x 2^n``, n in the last bits of what :data:`ROUNDING` was added to."""
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         width = called.return_type.width
         words = ir.VectorType(WORD, width)
         number, power = (builder.bitcast(value, words) for value in arguments)
@@ -79,10 +79,10 @@ def times_power_of_two(context, x, rounded):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def split(context, x):  # type: ignore[no-untyped-def]
+def split(context, x):
     """Fraction from the root of a half to that of two, and power of two, of a normal number."""
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         width = called.args[0].width
         words, doubles = (ir.VectorType(element, width) for element in (WORD, DOUBLE))
         root_of_half = constant(0x3FE6A09E00000000, width)
@@ -101,8 +101,8 @@ def split(context, x):  # type: ignore[no-untyped-def]
 
 
 @inline
-def usual_exp(x):  # type: ignore[no-untyped-def]
-    """exp where the result is a normal number."""
+def usual_exp(x):
+    """Exponential where the result is a normal number."""
     rounded = fma(x, PER_LN_2, ROUNDING)
     n = rounded - ROUNDING
     r = fma(n, -LN_2_LOW, fma(n, -LN_2_HIGH, x))
@@ -116,7 +116,7 @@ def usual_exp(x):  # type: ignore[no-untyped-def]
 
 
 @inline
-def usual_log(x):  # type: ignore[no-untyped-def]
+def usual_log(x):
     """Natural logarithm of a normal positive number."""
     fraction, power = split(x)
     f = fraction - 1.0
@@ -136,7 +136,7 @@ def one_by_one(name: str) -> Any:
     """
     function = getattr(math, name)
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         width = called.return_type.width
         number = types.float64
         signature = number(*[number] * (len(arguments) - 1))
@@ -144,7 +144,7 @@ def one_by_one(name: str) -> Any:
         kind.get_call_type(context.typing_context, signature.args, {})
         calculate = context.get_function(kind, signature)
         mask, *values = arguments
-        result = builder.alloca(mask.type.element if False else ir.VectorType(DOUBLE, width))
+        result = builder.alloca(ir.VectorType(DOUBLE, width))
         builder.store(constant(0.0, width), result)
         for lane in range(width):
             with builder.if_then(builder.extract_element(mask, INDEX(lane)), likely=False):
@@ -157,13 +157,13 @@ def one_by_one(name: str) -> Any:
     if name == "pow":
 
         @intrinsic
-        def call_two(context, mask, a, b):  # type: ignore[no-untyped-def]
+        def call_two(context, mask, a, b):
             return Floats(mask.width)(mask, a, b), generate
 
         return call_two
 
     @intrinsic
-    def call_one(context, mask, a):  # type: ignore[no-untyped-def]
+    def call_one(context, mask, a):
         return Floats(mask.width)(mask, a), generate
 
     return call_one
@@ -175,8 +175,8 @@ pow_one_by_one = one_by_one("pow")
 
 
 @inline
-def lane_exp(x):  # type: ignore[no-untyped-def]
-    """exp of any number."""
+def lane_exp(x):
+    """Exponential of any number."""
     usual = abs(x) <= MOST
     result = usual_exp(x)
     if any_lane(negated(usual)):
@@ -185,7 +185,7 @@ def lane_exp(x):  # type: ignore[no-untyped-def]
 
 
 @inline
-def lane_log(x):  # type: ignore[no-untyped-def]
+def lane_log(x):
     """Natural logarithm of any number; as compiled code has it, not a number if it has none."""
     usual = (x >= LEAST_NORMAL) & (x <= GREATEST)
     result = usual_log(x)
@@ -195,7 +195,7 @@ def lane_log(x):  # type: ignore[no-untyped-def]
 
 
 @inline
-def lane_pow(x, y):  # type: ignore[no-untyped-def]
+def lane_pow(x, y):
     """A power; a square is a product."""
     result = x * x
     other = y != 2.0
@@ -211,28 +211,28 @@ def lane_pow(x, y):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def negated(context, mask):  # type: ignore[no-untyped-def]
+def negated(context, mask):
     """No for yes, and yes for no."""
     return mask(mask), lambda context, builder, called, arguments: builder.not_(arguments[0])
 
 
 @intrinsic
-def in_all_lanes(context, x, like):  # type: ignore[no-untyped-def]
+def in_all_lanes(context, x, like):
     """A number as one per lane of another's width."""
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         return context.cast(builder, arguments[0], called.args[0], called.return_type)
 
     return like(x, like), generate
 
 
 @overload(math.exp, jit_options=OPTIONS)
-def _exp(x):  # type: ignore[no-untyped-def]
+def _exp(x):
     return (lambda x: lane_exp(x)) if isinstance(x, Floats) else None
 
 
 @overload(math.log, jit_options=OPTIONS)
-def _log(x):  # type: ignore[no-untyped-def]
+def _log(x):
     return (lambda x: lane_log(x)) if isinstance(x, Floats) else None
 
 
@@ -253,10 +253,10 @@ def whole_power(exponent: int) -> Callable[..., Any]:
 
 @overload(operator.pow, jit_options=OPTIONS, prefer_literal=True)
 @overload(pow, jit_options=OPTIONS, prefer_literal=True)
-def _pow(x, y):  # type: ignore[no-untyped-def]
+def _pow(x, y):
     if isinstance(x, Floats) and isinstance(y, types.IntegerLiteral):
         return whole_power(y.literal_value)
-    if isinstance(x, Floats) and isinstance(y, (*(types.Float, types.Integer), Floats)):
+    if isinstance(x, Floats) and isinstance(y, (types.Float, types.Integer, Floats)):
         return lambda x, y: lane_pow(x, in_all_lanes(y, x))
     if isinstance(x, types.Float) and isinstance(y, Floats):
         return lambda x, y: lane_pow(in_all_lanes(x, y), y)
@@ -268,16 +268,18 @@ def _left_to_the_library(name: str) -> None:
     call = one_by_one(name)
 
     @overload(getattr(math, name), jit_options=OPTIONS)
-    def choose(x):  # type: ignore[no-untyped-def]
+    def choose(x):
         return (lambda x: call(x == x, x) + unknown(x)) if isinstance(x, Floats) else None
 
 
 @inline
-def unknown(x):  # type: ignore[no-untyped-def]
+def unknown(x):
     """Zero, and not a number where `x` is none."""
     return select(x == x, 0.0, x)
 
 
-for _name in ("sin", "cos", "tan", "tanh", "sinh", "cosh", "atan", "asin", "acos", "expm1", "log1p"):
+for _name in (
+    *("sin", "cos", "tan", "asin", "acos", "atan"),
+    *("sinh", "cosh", "tanh", "expm1", "log1p"),
+):
     _left_to_the_library(_name)
-assert Mask

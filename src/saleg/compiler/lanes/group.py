@@ -94,5 +94,3 @@ def _runs(run: Integration, width: int) -> Integration:
 def _as_numbers(records: np.ndarray) -> np.ndarray:
     """Records as numbers in the same memory, a row per lane."""
     return records.view(np.float64).reshape(len(records), -1)
-
-

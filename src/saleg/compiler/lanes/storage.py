@@ -2,18 +2,24 @@
 
 A record of n numbers of 8 bytes is kept for W engines as n rows of W: a number of all of them
 stands together. :class:`Records` is such a record, with the fields of the record of one engine,
-:class:`Rows` an array of such records or of numbers. So ``C[side].area`` and ``y[X] = v`` mean for W
-engines what they mean for one.
+:class:`Rows` an array of such records or of numbers. So ``C[side].area`` and ``y[X] = v`` mean for
+W engines what they mean for one.
 """
 
 from __future__ import annotations
 
+import operator
 from typing import Any
 
 from llvmlite import ir
 from numba.core import types
-from numba.core.typing.templates import AbstractTemplate, AttributeTemplate
-from numba.core.typing.templates import infer_getattr, infer_global, signature
+from numba.core.typing.templates import (
+    AbstractTemplate,
+    AttributeTemplate,
+    infer_getattr,
+    infer_global,
+    signature,
+)
 from numba.extending import (
     intrinsic,
     lower_builtin,
@@ -22,7 +28,6 @@ from numba.extending import (
     models,
     register_model,
 )
-import operator
 
 from saleg.compiler.lanes.values import DOUBLE, WORD, Floats, Words
 
@@ -139,7 +144,9 @@ class _GetItem(AbstractTemplate):  # type: ignore[misc]
         if isinstance(index, types.Integer):
             return signature(kind.element, kind, types.intp)
         if isinstance(index, types.UniTuple):
-            return signature(_element_at(kind, index.count), kind, types.UniTuple(types.intp, index.count))
+            return signature(
+                _element_at(kind, index.count), kind, types.UniTuple(types.intp, index.count)
+            )
         return None
 
 
@@ -200,45 +207,45 @@ def _address(context: Any, builder: Any, kind: Any, array: Any) -> Any:
 
 
 @intrinsic(prefer_literal=True)
-def records_of(context, room, like, width):  # type: ignore[no-untyped-def]
+def records_of(context, room, like, width):
     """The record of W engines kept in an array of numbers, like an array of records of one."""
     kind = Records(like.dtype, width.literal_value)
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         return _address(context, builder, called.args[0], arguments[0])
 
     return kind(room, like, width), generate
 
 
 @intrinsic(prefer_literal=True)
-def rows_of(context, room, like, count, width):  # type: ignore[no-untyped-def]
+def rows_of(context, room, like, count, width):
     """Records of W engines, so many for each."""
     kind = Rows(Records(like.dtype, width.literal_value), count.literal_value)
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         return _address(context, builder, called.args[0], arguments[0])
 
     return kind(room, like, count, width), generate
 
 
 @intrinsic(prefer_literal=True)
-def numbers_of(context, room, count, width):  # type: ignore[no-untyped-def]
+def numbers_of(context, room, count, width):
     """An array of so many numbers of W engines."""
     kind = Rows(Floats(width.literal_value), count.literal_value)
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         return _address(context, builder, called.args[0], arguments[0])
 
     return kind(room, count, width), generate
 
 
 @intrinsic(prefer_literal=True)
-def tables_of(context, room, rows, count, width):  # type: ignore[no-untyped-def]
+def tables_of(context, room, rows, count, width):
     """Several arrays of so many numbers of W engines."""
     inner = Rows(Floats(width.literal_value), count.literal_value)
     kind = Rows(inner, rows.literal_value)
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         return _address(context, builder, called.args[0], arguments[0])
 
     return kind(room, rows, count, width), generate

@@ -51,7 +51,6 @@ class _Lanes(types.Type):  # type: ignore[misc]
     def key(self) -> tuple[str, int]:
         return type(self).__name__, self.width
 
-
     #: Types of what is the same in all lanes that will do in its place.
     alike: tuple[Any, ...] = ()
 
@@ -87,7 +86,8 @@ def _model(kind: Any, element: ir.Type) -> None:
         vector = ir.VectorType(element, kind.width)
         models.PrimitiveModel.__init__(self, manager, kind, vector)
 
-    register_model(kind)(type(f"{kind.__name__}Model", (models.PrimitiveModel,), {"__init__": start}))
+    model = type(f"{kind.__name__}Model", (models.PrimitiveModel,), {"__init__": start})
+    register_model(kind)(model)
 
 
 _model(Floats, DOUBLE)
@@ -133,7 +133,9 @@ def _cast(context: Any, builder: Any, given: Any, wanted: Any, value: Any) -> An
     return splat(builder, context.cast(builder, value, given, types.float64), wanted.width)
 
 
-def register(functions: Sequence[Any], emit: Emit, counts: Sequence[int], result: Any = None) -> None:
+def register(
+    functions: Sequence[Any], emit: Emit, counts: Sequence[int], result: Any = None
+) -> None:
     """Let numba know functions of numbers of lanes.
 
     Parameters
@@ -248,7 +250,9 @@ def _compare_words(function: Any, sign: str) -> None:
     @lower_builtin(function, Words, types.Integer)
     def lower(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
         words, one = arguments
-        same = splat(builder, context.cast(builder, one, called.args[1], types.int64), words.type.count)
+        same = splat(
+            builder, context.cast(builder, one, called.args[1], types.int64), words.type.count
+        )
         return builder.icmp_signed(sign, words, same)
 
 
@@ -263,10 +267,10 @@ def bits_of(builder: Any, mask: Any) -> Any:
 
 
 @intrinsic
-def _any_lane(context, mask):  # type: ignore[no-untyped-def]
+def _any_lane(context, mask):
     """Whether any lane has a yes."""
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         bits = bits_of(builder, arguments[0])
         return builder.icmp_unsigned("!=", bits, bits.type(0))
 
@@ -274,12 +278,12 @@ def _any_lane(context, mask):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def _select(context, mask, a, b):  # type: ignore[no-untyped-def]
+def _select(context, mask, a, b):
     """One of two numbers, or of two answers, per lane."""
     answers = all(isinstance(one, (Mask, types.Boolean)) for one in (a, b))
     kind = (Mask if answers else Floats)(mask.width)
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         chosen, *values = arguments
         first, second = (
             context.cast(builder, value, given, kind)
@@ -291,24 +295,24 @@ def _select(context, mask, a, b):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def lane_bits(context, mask):  # type: ignore[no-untyped-def]
+def lane_bits(context, mask):
     """A mask as a whole number, the first lane in its lowest bit."""
 
-    def generate(context, builder, called, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, called, arguments):
         return builder.zext(bits_of(builder, arguments[0]), WORD)
 
     return types.int64(mask), generate
 
 
 @overload(choice.where, jit_options={"forceinline": True, "_nrt": False})
-def _where(mask, a, b):  # type: ignore[no-untyped-def]
+def _where(mask, a, b):
     if isinstance(mask, Mask):
         return lambda mask, a, b: _select(mask, a, b)
     return lambda mask, a, b: a if mask else b
 
 
 @overload(choice.any_of, jit_options={"forceinline": True, "_nrt": False})
-def _any_of(mask):  # type: ignore[no-untyped-def]
+def _any_of(mask):
     if isinstance(mask, Mask):
         return lambda mask: _any_lane(mask)
     return lambda mask: bool(mask)

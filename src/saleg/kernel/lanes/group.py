@@ -154,5 +154,3 @@ def take(rows, lane, width, numbers):
     """Copy numbers of a lane out of the rows."""
     for n in range(numbers.shape[0]):
         numbers[n] = rows[n * width + lane]
-
-

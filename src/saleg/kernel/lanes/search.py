@@ -1,9 +1,9 @@
 """The search for fixed points of the return maps of many engines, W of them side by side.
 
 What happens at a dead centre happens to each lane by itself, with the functions of
-:mod:`saleg.kernel.orbit`, while the others are there too: so all lanes do the same at the same time,
-for instance compress on the right, and what none of them does costs nothing. A lane whose search is
-over takes up the next engine. No engine knows which others are beside it.
+:mod:`saleg.kernel.orbit`, while the others are there too: so all lanes do the same at the same
+time, for instance compress on the right, and what none of them does costs nothing. A lane whose
+search is over takes up the next engine. No engine knows which others are beside it.
 """
 
 from typing import Any, NamedTuple
