@@ -31,8 +31,9 @@ def group_of(run: Integration, address: int, width: int) -> Group:
     step = np.zeros((width, 1), STEP_RECORD)
     flat = Flat(*(_as_numbers(part) for part in (runs.laws, runs.engine, runs.chambers, step)))
     stages = len(run.tableau.b)
-    counts = (part.shape[1] for part in flat[:3])
-    counts = (*counts, layout.N_ALL, layout.N_ALL, (stages + 1) * layout.N_ALL, flat.step.shape[1])
+    records = [part.shape[1] for part in flat[:3]]
+    vectors = [layout.N_ALL, layout.N_ALL, (stages + 1) * layout.N_ALL]
+    counts = [*records, *vectors, flat.step.shape[1]]
     rows = Rows(*(np.zeros(count * width) for count in counts))
     fresh, codes = np.zeros(width, np.int64), np.full(width, layout.NOT_FOUND)
     return Group(address, run.laws, runs, flat, rows, step, fresh, codes)

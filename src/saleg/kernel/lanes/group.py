@@ -35,8 +35,8 @@ STEP_RECORD = np.dtype(
 )
 # Fields of the engine's record that steps use or change, the first of it; and those of a step
 # whose peaks are not looked for.
-N_STEPPED = ENGINE_RECORD.names.index("evaluations") + 1
-UNWATCHED = STEP_RECORD.names.index("peaks")
+N_STEPPED = list(ENGINE_RECORD.fields or ()).index("evaluations") + 1
+UNWATCHED = list(STEP_RECORD.fields or ()).index("peaks")
 
 
 class Rows(NamedTuple):
