@@ -108,7 +108,7 @@ def judge(E, C, O, S, y, y_new, k):
     h, busy, rejected = S.h, S.busy > 0.0, S.rejected > 0.0
     error = error_norm(E, h, y, y_new, k, O.tolerance)
     sound = is_sound(C, y_new)
-    good = busy & sound & (error <= 1.0)
+    good = busy & sound & (error <= 1.0) & (h >= 0.0)
     E.steps += where(busy, 1.0, 0.0)
     step, ln_error = control_step(E, C, ORDER, h, error, rejected, y, y_new)
     E.next_step = where(good, step, E.next_step)
