@@ -28,22 +28,17 @@ class Needs(NamedTuple):
         Pressures without combustion: a law looks at them, or the user wants them.
     current : bool
         Current in the alternator: its law has a rate for it.
-    motoring : bool
-        The alternator as a motor: a controller may ask for it.
     """
 
     motored_pressure: bool
     current: bool
-    motoring: bool
 
     @classmethod
-    def of(
-        cls, classes: Sequence[type[Law]], motored_pressure: bool, *, motoring: bool = True
-    ) -> Needs:
+    def of(cls, classes: Sequence[type[Law]], motored_pressure: bool) -> Needs:
         """Needs of some law classes."""
         alternators = [law for law in classes if issubclass(law, Alternator)]
         has_rate = any(law.current_rate is not Alternator.current_rate for law in alternators)
-        return cls(motored_pressure, has_rate, motoring)
+        return cls(motored_pressure, has_rate)
 
     @property
     def states(self) -> list[Stretch]:
@@ -69,5 +64,4 @@ class Needs(NamedTuple):
         return (
             f"MOTORED_PRESSURE_IS_WANTED = {self.motored_pressure}\n"
             f"CURRENT_IS_WANTED = {self.current}\n"
-            f"MOTORING_IS_POSSIBLE = {self.motoring}\n"
         )

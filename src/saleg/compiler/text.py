@@ -151,8 +151,8 @@ def compose(
         parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
     for (name, base), law in zip(OTHER_SLOTS.items(), rest, strict=True):
         parts += _engine_slot(name, base, law, injected)
-    needs = Needs.of(classes, motored_pressure, motoring=width == 1)
-    parts += [_kernel_text(name, needs) for name in modules]
+    needs = Needs.of(classes, motored_pressure)
+    parts += [_kernel_text(name, needs, width) for name in modules]
     if width > 1:
         parts += map(own_text, STEPS_OF_LANES)
     return _joined(parts)
@@ -164,10 +164,11 @@ def _lanes(width: int) -> str:
     return LANES.format(digest=hashlib.sha256(texts.encode()).hexdigest(), width=width)
 
 
-def _kernel_text(name: str, needs: Needs) -> str:
+def _kernel_text(name: str, needs: Needs, width: int) -> str:
     """Text of a module of the kernel, or of what stands in its place."""
     if name == "needs":
-        written = needs.text
+        # Nobody commands engines that are stepped side by side.
+        written = f"{needs.text}MOTORING_IS_POSSIBLE = {width == 1}\n"
     elif name == "adaptive":
         written = adaptive_step(needs.states, needs.kept, QUADRATURES)
     else:

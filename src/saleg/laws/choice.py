@@ -23,11 +23,12 @@ def where(condition: bool, a: Number, b: Number) -> Number:
     condition : bool
         A comparison.
     a, b : float
-        Values where it holds, and where it does not.
+        Values where it holds, and where it does not; of any unit, the same for both [any].
 
     Returns
     -------
     float
+        One of them [any].
     """
     return a if condition else b
 

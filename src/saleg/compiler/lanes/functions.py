@@ -15,6 +15,7 @@ from typing import Any
 
 from llvmlite import ir
 from numba import njit, types
+from numba.core import cgutils
 from numba.extending import intrinsic, overload
 
 from saleg.compiler.lanes.values import DOUBLE, INDEX, WORD, Floats, call_llvm, constant
@@ -144,7 +145,8 @@ def one_by_one(name: str) -> Any:
         kind.get_call_type(context.typing_context, signature.args, {})
         calculate = context.get_function(kind, signature)
         mask, *values = arguments
-        result = builder.alloca(ir.VectorType(DOUBLE, width))
+        # Room in the function's entry: within a loop the stack would grow with every turn.
+        result = cgutils.alloca_once(builder, ir.VectorType(DOUBLE, width))
         builder.store(constant(0.0, width), result)
         for lane in range(width):
             with builder.if_then(builder.extract_element(mask, INDEX(lane)), likely=False):
