@@ -13,7 +13,7 @@ from saleg.compiler.imported_text import NoSource
 from saleg.compiler.records import numbers_of, record_of
 from saleg.compiler.source import Borrowed
 from saleg.compiler.strength_reduction import EXPONENTIAL
-from saleg.compiler.text import methods_text
+from saleg.compiler.text import CHOICE, methods_text
 from saleg.kernel.logarithms import Logarithms
 from saleg.laws import Charge, Gas, Motion, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law
@@ -180,7 +180,7 @@ def test_laws_that_mirror_are_odd(law):
 def compiled(law, method):
     """The method alone, compiled as the composer writes it, and the law's record."""
     names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
-    text = "\n".join(methods_text(type(law), method, "one", BASES[law.slot]))
+    text = "\n".join([CHOICE, *methods_text(type(law), method, "one", BASES[law.slot])])
     exec(text, names)
     record = np.array(numbers_of([law])).view(record_of(law))
     return names[f"one_{method}"], record[0]
@@ -202,7 +202,7 @@ def test_eased_face_equals_python_face(law, method):
     """Merged powers and remembered factors change nothing but rounding."""
     names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
     names[EXPONENTIAL] = math.exp
-    text = "\n".join(methods_text(type(law), method, "one", BASES[law.slot], eases=True))
+    text = "\n".join([CHOICE, *methods_text(type(law), method, "one", BASES[law.slot], eases=True)])
     exec(text, names)
     record = np.array(numbers_of([law])).view(record_of(law))[0]
     for gas in GASES:
