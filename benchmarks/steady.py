@@ -1,6 +1,7 @@
-"""Steady states: solved against waited for, together and side by side against one by one, threads.
+"""Steady states: solved against waited for, one by one, together, in lanes, sweeps, threads.
 
     python benchmarks/steady.py [--designs 1000] [--repeats 5] [--agree 500] [--memory 100000]
+                                [--line 1000] [--grid 100]
 
 Random designs vary the base case by a fifth. Waiting is 2.5 s of simulation with the same
 integrator at the same tolerance, as the thesis does it; both are timed in turns in one run.
@@ -19,8 +20,9 @@ from functools import partial
 import numpy as np
 
 import saleg
+from saleg import sweep
 from saleg.batch.many import steady_row
-from saleg.steady import lanes
+from saleg.steady import lanes, lines, many
 from saleg.steady.solver import found_steady_state
 
 BASE = saleg.machines.thesis_base()
@@ -107,6 +109,56 @@ def together(engines, repeats):
     print()
 
 
+def from_own_starts(solve):
+    """What a call gives, and its time, where no row follows another."""
+    kept, many.lines_among = many.lines_among, lambda numbers: lines.no_lines(len(numbers))
+    try:
+        return seconds(solve)
+    finally:
+        many.lines_among = kept
+
+
+def along_a_line(points, repeats):
+    """Best of some repeats of a sweep, with and without multipliers, and one by one, in turns."""
+    ratios = np.linspace(0.4, 0.6, points)
+    for what, multipliers, swept in (
+        ("engines", False, BASE),
+        ("designs", False, None),
+        ("engines, multipliers", True, BASE),
+    ):
+        table = sweep.listed({"equivalence_ratio": ratios[:: 10 if multipliers else 1]})
+        run = partial(sweep.run, table, swept, rtol=RTOL, multipliers=multipliers, workers=1)
+        engines = [BASE.replace(equivalence_ratio=ratio) for ratio in table.equivalence_ratio]
+        row_of = partial(steady_row, multipliers=multipliers)
+        alone = partial(lambda engines, row: [row(saleg.steady_state(e)) for e in engines], engines)
+        best = {}
+        for _ in range(repeats):
+            spent = {"along the line": seconds(run), "own starts": from_own_starts(run)}
+            if swept is not None:
+                spent["one by one"] = seconds(partial(alone, row_of))
+            for name, (time_, found) in spent.items():
+                best[name] = min(best.get(name, np.inf), time_)
+                if name == "along the line":
+                    half_cycles = found.half_cycles.mean()
+        each = ", ".join(f"{name} {1e3 * t / len(table):.3f}" for name, t in best.items())
+        print(f"{len(table)} {what} along a line: {each} ms a row; {half_cycles:.1f} half cycles")
+    print()
+
+
+def on_a_grid(points):
+    """Time of a square grid with all processors."""
+    ends = {"bore": (0.056, 0.070), "equivalence_ratio": (0.4, 0.8)}
+    table = sweep.grid({name: np.linspace(*pair, points) for name, pair in ends.items()})
+    for multipliers in (False, True):
+        run = partial(sweep.run, table, BASE, rtol=RTOL, multipliers=multipliers)
+        spent, found = seconds(run)
+        print(
+            f"{points} x {points} grid, multipliers {multipliers}: {spent:.1f} s, "
+            f"{found.half_cycles.mean():.1f} half cycles, {(found.status == 'steady').sum()} steady"
+        )
+    print()
+
+
 def threads(engines, repeats):
     """Best of some repeats with one thread and with two, in turns."""
     best = {1: np.inf, 2: np.inf}
@@ -158,6 +210,8 @@ def main():
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--agree", type=int, default=500, help="designs also waited for at 1e-9")
     parser.add_argument("--memory", type=int, default=100_000, help="designs of the memory test")
+    parser.add_argument("--line", type=int, default=1000, help="points of a sweep along a line")
+    parser.add_argument("--grid", type=int, default=100, help="points of a grid in each direction")
     options = parser.parse_args()
     machine = f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
     print(f"{machine}; Python {platform.python_version()}; saleg {saleg.__version__}\n")
@@ -166,6 +220,10 @@ def main():
     saleg.simulate(BASE, 0.1)
     compare(engines)
     together(engines[: options.designs // 2], options.repeats)
+    if options.line:
+        along_a_line(options.line, options.repeats)
+    if options.grid:
+        on_a_grid(options.grid)
     threads(engines[: options.designs // 2], options.repeats)
     if options.agree:
         agreement(options.agree)

@@ -29,6 +29,7 @@ from saleg.errors import (
 from saleg.simulation.integration import simulate
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
+from saleg.simulation.scavenging import Scavenging
 from saleg.status import Status
 from saleg.steady.solver import Effort, SteadyState, steady_state
 from saleg.version import __version__, show_versions
@@ -64,6 +65,7 @@ __all__ = [
     "Run",
     "SalegError",
     "SalegWarning",
+    "Scavenging",
     "SealedCylinder",
     "Status",
     "SteadyState",

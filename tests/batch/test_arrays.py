@@ -46,10 +46,10 @@ def mixed():
     return [engines[n] for n in np.random.default_rng(1).permutation(len(engines))]
 
 
-def alone(engine, effort):
+def alone(engine, effort, multipliers=False):
     """Row of an engine solved by itself."""
     try:
-        return steady_row(found_steady_state(engine, 1e-6, effort=effort), False)
+        return steady_row(found_steady_state(engine, 1e-6, effort=effort), multipliers)
     except InvalidEngine as error:
         return {"status": "invalid", "message": str(error)}
 
@@ -60,6 +60,14 @@ def test_rows_are_those_of_engines_solved_alone(mixed, effort):
     for engine, row in zip(mixed, table.to_dict("records"), strict=True):
         for name, value in alone(engine, effort).items():
             assert row[name] == value or (row[name] != row[name] and value != value), name
+
+
+def test_multipliers_are_those_of_engines_solved_alone(mixed):
+    table = saleg.steady_states(mixed, effort=Effort.QUICK, multipliers=True)
+    for engine, row in zip(mixed, table.to_dict("records"), strict=True):
+        for name, value in alone(engine, Effort.QUICK, multipliers=True).items():
+            assert row[name] == value or (row[name] != row[name] and value != value), name
+    assert table.stable.sum() >= 10
 
 
 def test_unusual_and_remarkable_rows_say_so(base):

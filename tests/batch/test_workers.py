@@ -29,17 +29,17 @@ def test_results_do_not_depend_on_who_does_the_work():
 def test_a_broken_pool_costs_time_not_results(tmp_path):
     """One of the processes is killed in the middle; the rest is done here."""
     points = sweep.grid({"bore": np.linspace(0.056, 0.070, 40)})
-    whole = sweep.run(points)
+    whole = sweep.run(points, chunk=8)
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         killed = []
 
         def kill(done, total):
-            if done < 12 and not killed:
+            if done < 24 and not killed:
                 killed.append(next(iter(pool._processes)))
                 os.kill(killed[0], signal.SIGKILL)
 
         with pytest.warns(RuntimeWarning, match="executor broke"):
-            table = sweep.run(points, executor=pool, chunk=4, folder=tmp_path / "s", report=kill)
+            table = sweep.run(points, executor=pool, chunk=8, folder=tmp_path / "s", report=kill)
     assert table.equals(whole)
 
 
@@ -87,7 +87,7 @@ def cluster(tmp_path):
 def test_a_dask_cluster_and_a_worker_killed_in_the_middle(cluster, tmp_path):
     client, workers = cluster
     points = sweep.grid({"bore": np.linspace(0.056, 0.070, 60)})
-    whole = sweep.run(points)
+    whole = sweep.run(points, chunk=6)
     killed = []
 
     def kill(done, total):
@@ -96,6 +96,6 @@ def test_a_dask_cluster_and_a_worker_killed_in_the_middle(cluster, tmp_path):
             killed.append(done)
 
     with client.get_executor() as pool:
-        table = sweep.run(points, executor=pool, chunk=2, folder=tmp_path / "s", report=kill)
+        table = sweep.run(points, executor=pool, chunk=6, folder=tmp_path / "s", report=kill)
     assert killed
     assert table.equals(whole)

@@ -23,8 +23,9 @@ if whole:
     kernel = kernel_for(engine)
 else:
     from saleg import reference
+    from saleg.compiler.text import REFERENCE
     run = reference.simulate(engine, 0.06, rtol=1e-6, jitted=True)
-    kernel = kernel_for(engine, ("plain_rhs",))
+    kernel = kernel_for(engine, REFERENCE)
     stats = kernel.module.rates_of_records.stats
 print(json.dumps({
     "hits": sum(stats.cache_hits.values()),

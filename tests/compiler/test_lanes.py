@@ -27,7 +27,7 @@ def rates(laws, law, engine, E1, chambers, C, t, y, dy):
     times = numbers_of(t, 1, {WIDTH})
     write_rates(
         P, E, rows_of(chambers, C, 2, {WIDTH}), times[0],
-        numbers_of(y, N_ALL, {WIDTH}), numbers_of(dy, N_ALL, {WIDTH}), 0,
+        numbers_of(y, N_ALL, {WIDTH}), numbers_of(dy, N_WANTED, {WIDTH}), 0,
     )
     return 0
 """
@@ -79,14 +79,14 @@ def test_every_lane_has_the_rates_of_its_engine(base, compiled):
         laws.append(parameters(_laws_in_order(engine, None)))
         compiled.constants(laws[-1], state.engine, state.chambers, state.y)
         states.append(state)
-    found = np.full(layout.N_ALL * WIDTH, 7.0)
+    found = np.full(layout.N_PLAIN * WIDTH, 7.0)
     engine, chambers, y = (in_rows([s[n] for s in map(tuple_of, states)]) for n in range(3))
     like = states[0].engine, states[0].chambers
     compiled.rates(in_rows(laws), laws[0], engine, like[0], chambers, like[1], times, y, found)
-    by_lane = found.reshape(layout.N_ALL, WIDTH).T
-    stepped = np.r_[0 : layout.MOTORED, layout.N_STATE : layout.N_ALL]
+    by_lane = found.reshape(layout.N_PLAIN, WIDTH).T
+    stepped = np.r_[0 : layout.MOTORED, layout.N_STATE : layout.N_PLAIN]
     assert (np.abs(wanted[:, stepped]).max(axis=0) > 0.0).sum() > 15
-    off = np.abs(by_lane - wanted)[:, stepped] / np.abs(wanted[:, stepped]).clip(1e-300)
+    off = np.abs(by_lane[:, stepped] - wanted[:, stepped]) / np.abs(wanted[:, stepped]).clip(1e-300)
     assert off.max() < 1e-14 * LARGEST_LOGARITHM
 
 

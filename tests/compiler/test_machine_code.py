@@ -39,6 +39,7 @@ def outer(address, run):
 
 def toy(run_at):
     module = types.ModuleType("toy")
+    module.INNER = machine_code.inner_compiler()
     exec(TOY.format(header=COMPILED_HEADER, run_at=own_text(run_at)), module.__dict__)
     return Kernel(module, None)
 
@@ -61,6 +62,55 @@ class Changed:
 
 def test_this_numba_has_addresses():
     assert machine_code.has_addresses()
+
+
+def test_this_numba_compiles_inner_functions_with_their_callers():
+    assert machine_code.inner_compiler() is not None
+
+
+@pytest.mark.parametrize("name", machine_code.INNER_NEEDS)
+def test_all_that_inner_functions_need_is_asked_for(name, monkeypatch):
+    monkeypatch.setattr(machine_code, "INNER_NEEDS", (name + "_gone",))
+    assert machine_code.inner_compiler() is None
+
+
+INNER = """
+import numba
+{header}
+cached = numba.njit(error_model="numpy", _nrt=False, nogil=True)
+
+@inline
+def root(a):
+    if a < 0.0:
+        raise ValueError("negative")
+    return a**0.5
+
+@compiled
+def sum_of_roots(n):
+    def of(i):
+        return root(float(i))
+    total = 0.0
+    for i in range(n):
+        total += of(i)
+    return total
+
+@cached
+def both(n):
+    return sum_of_roots(n), root(n - 5.0)
+"""
+
+
+@pytest.mark.parametrize("has_changed", [False, True])
+def test_inner_functions_return_and_raise_as_numba_does(has_changed):
+    compiler = None if has_changed else machine_code.inner_compiler()
+    names = {"INNER": compiler}
+    exec(INNER.format(header=COMPILED_HEADER), names)
+    assert names["both"](9) == (sum(math.sqrt(i) for i in range(9)), 2.0)
+    with pytest.raises(ValueError, match="negative"):
+        names["both"](4)
+    (inner,) = names["root"].overloads.values()
+    address = inner.library.get_pointer_to_function(inner.fndesc.llvm_func_name)
+    assert (address != 0) is has_changed
 
 
 @pytest.mark.parametrize("name", machine_code.ADDRESS_NEEDS)

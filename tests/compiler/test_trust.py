@@ -156,6 +156,7 @@ def test_a_new_folder_open_to_its_group_is_closed_and_used(tmp_path, monkeypatch
 NOWHERE = """
 import os
 import numba
+import saleg.compiler.inner_functions  # imported late otherwise, when it may not be readable
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
 numba.njit(lambda x: x)(1.0)  # all of numba is imported while it can be read

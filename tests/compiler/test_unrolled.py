@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from saleg.compiler.needs import QUADRATURES, Needs
+from saleg.compiler.needs import Needs
 from saleg.compiler.unrolled import adaptive_step
 from saleg.kernel import layout
-from saleg.laws import CircuitAlternator, LinearLoad, Woschni
+from saleg.laws import CircuitAlternator, LinearLoad, PortFlow, Woschni
 
 
 def growth(P, E, C, t, y, dy, motored):
@@ -21,7 +21,7 @@ def growth(P, E, C, t, y, dy, motored):
 def step_of(needs, h):
     """End of a step from 1, 2, 3 ..., and the estimated error of position."""
     names = {"compiled": lambda f: f, "inline": lambda f: f, "write_rates": growth}
-    exec(adaptive_step(needs.states, needs.kept, QUADRATURES), names)
+    exec(adaptive_step(needs.states, needs.kept, needs.sums), names)
     y = np.arange(1.0, layout.N_ALL + 1.0)
     k, y_new = np.zeros((7, layout.N_ALL)), np.full(layout.N_ALL, math.nan)
     k[0] = y
@@ -45,12 +45,31 @@ def test_a_step_is_of_fifth_order_and_leaves_alone_what_nobody_needs(motored, cu
     if not current:
         wanted[layout.CURRENT] = y[layout.CURRENT]
     assert y_new[: layout.N_STATE] == pytest.approx(wanted, rel=h**6 / math.factorial(6))
-    assert y_new[layout.N_STATE :] == pytest.approx(y[layout.N_STATE :] + h**2 / 2, rel=1e-14)
+    sums = slice(layout.N_STATE, layout.N_PLAIN)
+    assert y_new[sums] == pytest.approx(y[sums] + h**2 / 2, rel=1e-14)
+    assert np.isnan(y_new[layout.N_PLAIN :]).all()  # nobody asks for these: not even copied
     assert 0.0 < abs(error) < h**5 / math.factorial(5)
     halved = step_of(needs, h / 2)[2]
     assert error / halved == pytest.approx(32.0, rel=0.1)
 
 
 def test_an_engine_needs_what_its_laws_ask_for():
-    assert Needs.of([Woschni, LinearLoad], motored_pressure=False) == (False, False)
-    assert Needs.of([Woschni, CircuitAlternator], motored_pressure=True) == (True, True)
+    assert Needs.of([Woschni, LinearLoad], motored_pressure=False) == (False, False, frozenset())
+    assert Needs.of([Woschni, CircuitAlternator], motored_pressure=True) == (
+        True,
+        True,
+        frozenset(),
+    )
+
+
+def test_a_step_takes_along_the_states_that_laws_ask_for():
+    needs = Needs.of([PortFlow, LinearLoad], motored_pressure=False)
+    assert needs.chambers == {"contents"}
+    h = 0.1
+    y, y_new, _ = step_of(needs, h)
+    contents, totals = slice(layout.FUEL, layout.WALL), slice(layout.SUPPLIED, layout.N_ALL)
+    # Their rate is the time here, as that of all entries beyond the first states.
+    assert y_new[contents] == pytest.approx(y[contents] + h**2 / 2, rel=1e-14)
+    assert y_new[totals] == pytest.approx(y[totals] + h**2 / 2, rel=1e-14)
+    kept = slice(layout.WALL, layout.SUPPLIED)
+    assert np.array_equal(y_new[kept], y[kept])

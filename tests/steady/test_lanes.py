@@ -8,9 +8,11 @@ import pytest
 import saleg
 from agreement import assert_rows_agree
 from helpers import single_piston
+from library_laws import LAWS
 from saleg import Effort, Engine, laws
 from saleg.engine.columns import rows_by_make
 from saleg.laws import any_of, where
+from saleg.laws.base import CHAMBER_SLOTS
 from saleg.simulation.outcome import imbalance
 from saleg.steady import lanes
 from saleg.steady.many import Limits, searched, steady_rows
@@ -41,6 +43,11 @@ class PatchyTransfer(laws.HeatTransfer):
         return found * where(gas.burning > 0.0, 1.5, 1.0)
 
 
+def uneven(base):
+    """Other numbers on the left than on the right: whole cycles, of the laws of the base case."""
+    return base.replace(**{"left.bore": 0.066, "right.equivalence_ratio": 0.45})
+
+
 def crossed(base):
     """Other laws on the left than on the right, the motored pressure and a current."""
     left = replace(base.left, heat_transfer=laws.Woschni(), heat_release=laws.DoubleWiebe())
@@ -48,37 +55,44 @@ def crossed(base):
     return replace(base, left=left, right=right, alternator=laws.CircuitAlternator())
 
 
-def with_laws(base, springs=None, alternator=None, **of_chambers):
-    """The base case with other laws on both sides."""
-    sides = [replace(side, **of_chambers) for side in (base.left, base.right)]
-    given = {"springs": springs or base.springs, "alternator": alternator or base.alternator}
-    return replace(base, left=sides[0], right=sides[1], **given)
+def with_laws(base, *chosen):
+    """The base case with other laws, those of a chamber on both sides."""
+    for law in chosen:
+        if law.slot in CHAMBER_SLOTS:
+            left, right = (replace(side, **{law.slot: law}) for side in (base.left, base.right))
+            base = replace(base, left=left, right=right)
+        else:
+            base = replace(base, **{law.slot: law})
+    return base
 
 
-CHOICES = {
-    "base case": lambda base: base,
-    "different sides": crossed,
-    "bounce chamber": single_piston,
-    "springs that lift off": lambda base: with_laws(
+def liftoff(base):
+    """Springs that lift off, and much else."""
+    return with_laws(
         base,
         laws.PreloadedSprings(stiffness=20e3, preload=500.0),
         laws.FluxProfile(load_constant=120.0),
-        ignition=laws.RCMIgnitionPascal(),
-        heat_transfer=laws.Chang(),
-        gas_properties=laws.ConstantGamma(),
-    ),
-    "a user's law": lambda base: with_laws(base, heat_transfer=PatchyTransfer()),
-}
+        laws.RCMIgnitionPascal(),
+        laws.Chang(),
+        laws.ConstantGamma(),
+    )
 
 
-def variations(engine: Engine, count: int):
+def patchy(base):
+    """A law of a user's."""
+    return with_laws(base, PatchyTransfer())
+
+
+def variations(engine: Engine, count: int, spread: float = 0.03):
     """An engine with some numbers changed a little, in many ways."""
     rng = np.random.default_rng(5)
-    paths = ("moving_mass", "bore", "equivalence_ratio", "springs.stiffness")
+    paths = ("moving_mass", "bore", "equivalence_ratio", "intake.pressure")
     if not engine.is_mirrored:
-        paths = ("moving_mass", "left.bore", "left.equivalence_ratio", "springs.stiffness")
+        paths = ("moving_mass", "left.bore", "left.equivalence_ratio", "right.bore")
     for _ in range(count):
-        changes = {path: engine.get(path) * rng.uniform(0.97, 1.03) for path in paths}
+        changes = {
+            path: engine.get(path) * rng.uniform(1.0 - spread, 1.0 + spread) for path in paths
+        }
         yield engine.replace(**changes)
 
 
@@ -89,16 +103,40 @@ def orbits_of(engines, total, rtol=FINE):
     return found
 
 
-@pytest.mark.parametrize("choice", CHOICES)
-def test_side_by_side_finds_what_one_by_one_finds(base, at_once, choice):
-    engines = list(variations(CHOICES[choice](base), 12))
-    found, wanted = orbits_of(engines, total=12), orbits_of(engines, total=0)
-    np.testing.assert_array_equal(found.rows.places, wanted.rows.places)
-    assert len(found.strokes) > 6
-    for side in range(2):
-        rows, others = found.strokes[:, side], wanted.strokes[:, side]
-        assert_rows_agree(rows, others, 1e-8, but=NOT_COMPARED)
-    assert imbalance(found.strokes[:, 1], found.strokes).max() < 1e-8
+def assert_lanes_agree(engines):
+    """Engines searched for side by side have the orbits they have one by one; returns them."""
+    (rows,) = rows_by_make(engines)
+    totals = len(engines), 0
+    pairs = zip(*(steady_rows(rows, FINE, Effort.THOROUGH, total) for total in totals), strict=True)
+    count = 0
+    for found, wanted in pairs:
+        np.testing.assert_array_equal(found.rows.places, wanted.rows.places)
+        count += len(found.strokes)
+        for side in range(2):
+            rows, others = found.strokes[:, side], wanted.strokes[:, side]
+            assert_rows_agree(rows, others, 1e-8, but=NOT_COMPARED)
+        assert imbalance(found.strokes[:, 1], found.strokes).max() < 1e-8
+        for name in ("x_dead_centre", "stroke"):
+            begun, others = found.starts.engine[name], wanted.starts.engine[name]
+            np.testing.assert_allclose(begun, others, rtol=1e-8)
+    return count
+
+
+def test_lanes_find_what_one_by_one_finds(base, at_once):
+    assert assert_lanes_agree(list(variations(base, 500, spread=0.1))) > 490
+    assert assert_lanes_agree(list(variations(uneven(base), 12))) == 12
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("choice", [crossed, single_piston, liftoff, patchy])
+def test_lanes_of_other_laws_too(base, at_once, choice):
+    assert assert_lanes_agree(list(variations(choice(base), 12))) > 6
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("law", [law for law in LAWS if not law.states], ids=repr)
+def test_lanes_of_every_law_of_the_library(base, at_once, law):
+    assert_lanes_agree(list(variations(with_laws(base, law), 12)))
 
 
 def test_rows_do_not_depend_on_their_neighbours(base, at_once):
@@ -144,7 +182,7 @@ def test_few_engines_never_wait_for_another_kernel(base, monkeypatch):
     assert len(orbits_of(list(variations(base, 3)), lanes.MANY - 1, rtol=1e-6).strokes) == 3
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_results_do_not_depend_on_the_width(base, at_once, monkeypatch):
     engines = list(variations(base, 9))
     wanted = orbits_of(engines, 9, rtol=1e-6)
@@ -153,14 +191,14 @@ def test_results_do_not_depend_on_the_width(base, at_once, monkeypatch):
     np.testing.assert_array_equal(found.strokes, wanted.strokes)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_user_is_told_once_that_a_law_branches(base, at_once):
     @dataclass(frozen=True)
     class Branching(laws.HeatTransfer):
         def coefficient(self, gas, charge):
             return 400.0 if gas.T > 900.0 else 300.0
 
-    engines = list(variations(with_laws(base, heat_transfer=Branching()), 9))
+    engines = list(variations(with_laws(base, Branching()), 9))
     with pytest.warns(RuntimeWarning, match="Branching are searched for one by one.*where"):
         found = orbits_of(engines, 9, rtol=1e-6)
     assert len(found.strokes) > 6

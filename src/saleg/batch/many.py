@@ -30,7 +30,6 @@ from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance, cycle_figures, is_remarkable, remarks_on
 from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
-from saleg.steady.lanes import MANY
 from saleg.steady.many import Orbits, steady_rows, verdicts
 from saleg.steady.solver import (
     Effort,
@@ -39,6 +38,8 @@ from saleg.steady.solver import (
     check_tolerance,
     found_steady_state,
 )
+from saleg.steady.stabilities import stabilities
+from saleg.steady.stability import Stability
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -97,7 +98,8 @@ def steady_states(
     workers : int, optional
         Threads; as many as there are processors unless given.
     chunk : int, optional
-        Engines sent at a time; 32 to 128 unless given, so that no worker waits.
+        Engines sent at a time; 32 to 256 unless given, an eighth of them if that is between.
+        Where engines stand along lines, the last digits depend on it, within the tolerance.
 
     Returns
     -------
@@ -118,16 +120,13 @@ def steady_states(
     check_effort(effort)
     check_flag("multipliers", multipliers)
     check_workers(executor, workers)
-    work: Callable[[Sequence[Engine]], Columns]
     count = len(engines) if isinstance(engines, Sequence) else None
-    if multipliers:
-        row_of = partial(_steady_row, rtol=rtol, multipliers=True, effort=effort)
-        work, units = partial(rows_of, row_of), STABILITY_UNITS
-    else:
-        piece = partial(_steady_piece, rtol=rtol, effort=effort, total=count or MANY)
-        work, units = piece, STEADY_UNITS
+    work = partial(
+        _steady_piece, rtol=rtol, multipliers=multipliers, effort=effort, total=count or 0
+    )
+    units = STABILITY_UNITS if multipliers else STEADY_UNITS
     if chunk is None:
-        chunk = suitable_chunk(count, workers)
+        chunk = suitable_chunk(count)
     return batch_table(work, engines, units, kernel_for, executor, workers, chunk)
 
 
@@ -193,6 +192,7 @@ def steady_columns(
     row_of: Callable[[int], Row],
     count: int,
     rtol: float,
+    multipliers: bool,
     effort: Effort,
     total: int,
 ) -> Columns:
@@ -208,25 +208,31 @@ def steady_columns(
         Number of engines.
     rtol : float
         Tolerance of the integrator.
+    multipliers : bool
+        Whether to differentiate each.
     effort : Effort
     total : int
         Number of engines in the batch they are a piece of.
     """
-    together = [
-        (found.rows.places, columns_of(found, cycle_figures_of(found), *verdicts(found, rtol)))
-        for rows in lots
-        for found in steady_rows(rows, rtol, effort, total)
-    ]
+    together = []
+    for found in (orbits for rows in lots for orbits in steady_rows(rows, rtol, effort, total)):
+        columns = columns_of(found, cycle_figures_of(found), *verdicts(found, rtol))
+        if multipliers:
+            columns |= stability_columns(found, columns["status"])
+        together.append((found.rows.places, columns))
     return filled_up(count, together, row_of)
 
 
-def _steady_piece(engines: Sequence[Engine], rtol: float, effort: Effort, total: int) -> Columns:
+def _steady_piece(
+    engines: Sequence[Engine], rtol: float, multipliers: bool, effort: Effort, total: int
+) -> Columns:
     """Columns of steady states of some engines, of a batch of so many."""
 
     def row_of(place: int) -> Row:
-        return _steady_row(engines[place], rtol, False, effort)
+        return _steady_row(engines[place], rtol, multipliers, effort)
 
-    return steady_columns(rows_by_make(engines), row_of, len(engines), rtol, effort, total)
+    lots = rows_by_make(engines)
+    return steady_columns(lots, row_of, len(engines), rtol, multipliers, effort, total)
 
 
 def cycle_figures_of(found: Orbits) -> dict[str, Any]:
@@ -260,6 +266,25 @@ def columns_of(
     }
 
 
+def stability_columns(found: Orbits, status: np.ndarray) -> Columns:
+    """Columns of the stability of orbits, of which those count that are steady states."""
+    places = np.flatnonzero(np.isin(status, [str(Status.STEADY), str(Status.IDLING)]))
+    known = dict(zip(places.tolist(), stabilities(found.some(places)), strict=True))
+    rows = [stability_row(known.get(n)) for n in range(len(status))]
+    return rows_of(rows.__getitem__, range(len(rows)))
+
+
+def stability_row(known: Stability | None) -> Row:
+    """What a row says of the stability of a steady state; None if there is none."""
+    values = known.multipliers if known is not None else np.zeros(0)
+    return {
+        "stable": known is not None and known.stable,
+        "kind": "" if known is None else known.kind,
+        "largest_multiplier": float(abs(values[0])) if len(values) else np.nan,
+        "beat_period": np.nan if known is None else known.beat_period,
+    }
+
+
 def _steady_row(engine: Engine, rtol: float, multipliers: bool, effort: Effort) -> Row:
     """Row of a steady state."""
     return steady_row(found_steady_state(engine, rtol, effort=effort), multipliers)
@@ -276,12 +301,7 @@ def steady_row(
     row["evaluations"] = float(found.evaluations)
     row["residual"] = found.residual
     if multipliers:
-        known = found.stability if found.found and found.has_multipliers else None
-        values = known.multipliers if known is not None else np.zeros(0)
-        row["stable"] = known is not None and known.stable
-        row["kind"] = "" if known is None else known.kind
-        row["largest_multiplier"] = float(abs(values[0])) if len(values) else np.nan
-        row["beat_period"] = np.nan if known is None else known.beat_period
+        row |= stability_row(found.stability if found.found and found.has_multipliers else None)
     return row
 
 

@@ -89,7 +89,7 @@ class Evaluation:
         solver()  # what it refuses, it refuses here
         self.input_units = {str(name): evaluated.unit(str(name)) for name in points}
         self.points = self._described(points.reset_index(drop=True), self.input_units)
-        self.chunk = suitable_chunk(len(points), workers) if chunk is None else chunk
+        self.chunk = suitable_chunk(len(points)) if chunk is None else chunk
         self._result_units = evaluated.units
         self._pieces = partial(
             in_pieces,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -20,10 +19,11 @@ if TYPE_CHECKING:
 
 #: Items sent to a worker at a time.
 CHUNK = 32
-#: The same of items that are worked on together, from which on more make no difference.
-MOST_TOGETHER = 128
-#: Pieces for each worker, if there are so many items, so that none waits long for the last one.
-PIECES = 4
+#: The same of items that are worked on together, from which on more make little difference.
+MOST_TOGETHER = 256
+#: Pieces, if there are so many items, so that several workers find work. Not their number decides:
+#: what follows a line begins anew in each piece, and results must not depend on who works.
+PIECES = 8
 #: Columns that hold text.
 TEXT = ("status", "message", "method", "kind")
 #: What stands in a column where a row has no entry, by the type of its values.
@@ -45,12 +45,11 @@ def rows_of(row_of: Callable[[T], Row], items: Iterable[T]) -> Columns:
     return {name: _column(name, rows) for name in dict.fromkeys(itertools.chain(*rows))}
 
 
-def suitable_chunk(count: int | None, workers: int | None) -> int:
+def suitable_chunk(count: int | None) -> int:
     """Items to send at a time where they are worked on together, of so many if that is known."""
     if count is None:
         return MOST_TOGETHER
-    pieces = PIECES * (workers or os.cpu_count() or 1)
-    return min(max(-(-count // pieces), CHUNK), MOST_TOGETHER)
+    return min(max(-(-count // PIECES), CHUNK), MOST_TOGETHER)
 
 
 def filled_up(

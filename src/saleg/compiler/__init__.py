@@ -43,7 +43,8 @@ Where to look: :mod:`~saleg.compiler.compiled_engine` is the door the other floo
 :mod:`~saleg.compiler.unrolled` writes out for what the laws need
 (:mod:`~saleg.compiler.needs`); :mod:`~saleg.compiler.diagnosis` names the
 one that fails; :mod:`~saleg.compiler.module` executes the
-text, kept in the :mod:`~saleg.compiler.cache`; :mod:`~saleg.compiler.kernel` calls it, through
+text, kept in the :mod:`~saleg.compiler.cache`, its functions compiled as parts of their entry point
+(:mod:`~saleg.compiler.inner_functions`); :mod:`~saleg.compiler.kernel` calls it, through
 :mod:`~saleg.compiler.machine_code`; :mod:`~saleg.compiler.records` holds the numbers.
 :mod:`~saleg.compiler.controllers` are composed by themselves, and so is the
 :mod:`~saleg.compiler.search` for steady states, which needs no law and is compiled once for all.

@@ -16,7 +16,7 @@ from saleg.compiler.module import load
 from saleg.compiler.source import fingerprint, is_ours
 from saleg.compiler.text import INTEGRATOR, compose, methods_text
 from saleg.kernel.tuples import Control
-from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Wiebe
+from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Plenum, Wiebe
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ IDLE_LAWS: dict[str, Law] = {
     "ignition": CFRIgnition(),
     "gas_exchange": InstantExchange(),
     "misfires": NoMisfires(),
+    "supply": Plenum(),
 }
 
 #: Actuators of an engine without a controller; never called.

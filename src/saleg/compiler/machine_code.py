@@ -1,4 +1,4 @@
-"""What saleg knows of numba's inside: here, and in ``run_at.py``, and nowhere else.
+"""What saleg knows of numba's inside: here, in ``run_at.py`` and in ``inner_functions.py`` only.
 
 Numba promises none of it. Each is a short cut with a longer way round, taken by itself where numba
 has changed:
@@ -8,6 +8,8 @@ has changed:
   a millisecond; else numba's dispatcher is called;
 - a function's address, so that the search for steady states is compiled once for all laws; else it
   is compiled into every kernel (:mod:`~saleg.compiler.search`);
+- inner functions without machine code of their own; else each has its own, in half as much time
+  again (:mod:`~saleg.compiler.inner_functions`);
 - the folder numba keeps machine code in, to be looked at before anything is loaded; else none is
   kept.
 """
@@ -30,6 +32,24 @@ ADDRESS_NEEDS = (
     "numba.core.callconv:CPUCallConv.call_function",
 )
 
+#: What :mod:`~saleg.compiler.inner_functions` takes.
+INNER_NEEDS = (
+    "numba.core.codegen:JITCodeLibrary._optimize_functions",
+    "numba.core.codegen:JITCodeLibrary._optimize_final_module",
+    "numba.core.codegen:JITCodeLibrary._finalize_final_module",
+    "numba.core.codegen:JITCodeLibrary._finalize_dynamic_globals",
+    "numba.core.compiler:CompilerBase.define_pipelines",
+    "numba.core.compiler:DefaultPassBuilder.define_nopython_pipeline",
+    "numba.core.compiler:Flags.values",
+    "numba.core.typed_passes:DumpParforDiagnostics",
+    "numba.core.typed_passes:NopythonRewrites",
+    "numba.core.untyped_passes:FindLiterallyCalls",
+    "numba.core.untyped_passes:InlineInlinables",
+    "numba.core.untyped_passes:LiteralPropagationSubPipelinePass",
+    "numba.core.untyped_passes:LiteralUnroll",
+    "numba.core.untyped_passes:WithLifting",
+)
+
 #: Numba's types of some arguments.
 Types = tuple[Any, ...]
 
@@ -46,6 +66,15 @@ def refusals() -> tuple[type[Exception], ...]:
     from numba.core.errors import NumbaError, UnsupportedBytecodeError
 
     return NumbaError, UnsupportedBytecodeError
+
+
+def inner_compiler() -> Any:
+    """Compiler of inner functions; None, which stands for numba's own, where numba has changed."""
+    if not _all_exist(INNER_NEEDS):
+        return None
+    from saleg.compiler.inner_functions import InnerCompiler
+
+    return InnerCompiler
 
 
 def is_compiled(function: Any, types: Types) -> bool:

@@ -44,7 +44,8 @@ def load(
     Parameters
     ----------
     text : str
-        Finds in ``ON_DISK`` whether its machine code is to be kept.
+        Finds in ``ON_DISK`` whether its machine code is to be kept, and in ``INNER`` the compiler
+        of functions that are no entry points.
     kind : str
         What it is of, for its name.
     names : dict, optional
@@ -101,7 +102,7 @@ def _execute(text: str, stem: str, filename: str, names: dict[str, Any] | None) 
     """Run a text as a module; nothing but this very text is executed, whatever the file holds."""
     module = types.ModuleType(stem)
     module.__file__ = filename
-    module.__dict__.update(names or {})
+    module.__dict__.update(names or {}, INNER=machine_code.inner_compiler())
     sys.modules[stem] = module
     exec(compile(text, filename, "exec"), module.__dict__)
     return module

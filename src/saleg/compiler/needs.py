@@ -7,7 +7,7 @@ the search for steady states is compiled once. What is not needed stays as it wa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from saleg.kernel import layout
@@ -16,7 +16,9 @@ from saleg.laws.base import Alternator, Law
 #: First entry of some that stand side by side, and the one after the last.
 Stretch = tuple[int, int]
 
-QUADRATURES: Stretch = (layout.N_STATE, layout.N_ALL)
+#: What is summed from dead centre to dead centre: for all engines, and for chambers that breathe.
+QUADRATURES: Stretch = (layout.N_STATE, layout.N_PLAIN)
+TOTALS: Stretch = (layout.SUPPLIED, layout.N_ALL)
 
 
 class Needs(NamedTuple):
@@ -28,17 +30,21 @@ class Needs(NamedTuple):
         Pressures without combustion: a law looks at them, or the user wants them.
     current : bool
         Current in the alternator: its law has a rate for it.
+    chambers : frozenset of str
+        States of the chambers that laws ask for, by their names in
+        :data:`saleg.kernel.layout.CHAMBER_STATES`.
     """
 
     motored_pressure: bool
     current: bool
+    chambers: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, classes: Sequence[type[Law]], motored_pressure: bool) -> Needs:
         """Needs of some law classes."""
         alternators = [law for law in classes if issubclass(law, Alternator)]
         has_rate = any(law.current_rate is not Alternator.current_rate for law in alternators)
-        return cls(motored_pressure, has_rate)
+        return cls(motored_pressure, has_rate, asked_for(classes))
 
     @property
     def states(self) -> list[Stretch]:
@@ -46,9 +52,14 @@ class Needs(NamedTuple):
         return [(layout.X, layout.MOTORED), *(one for one, wanted in self._optional if wanted)]
 
     @property
+    def sums(self) -> list[Stretch]:
+        """Entries of the state that are summed from dead centre to dead centre."""
+        return [QUADRATURES, TOTALS] if self.chambers else [QUADRATURES]
+
+    @property
     def kept(self) -> list[Stretch]:
-        """Entries of the state that stay as they are."""
-        return [one for one, wanted in self._optional if not wanted]
+        """Entries of the state that stay as they are, but for those beyond the last wanted."""
+        return [one for one, wanted in self._optional if not wanted and one[0] < self._length]
 
     @property
     def _optional(self) -> list[tuple[Stretch, bool]]:
@@ -56,7 +67,13 @@ class Needs(NamedTuple):
         return [
             ((layout.MOTORED, layout.CURRENT), self.motored_pressure),
             ((layout.CURRENT, layout.N_STATE), self.current),
+            *((place, name in self.chambers) for name, place in layout.CHAMBER_STATES.items()),
         ]
+
+    @property
+    def _length(self) -> int:
+        """Length of the state up to its last entry that is wanted."""
+        return layout.N_ALL if self.chambers else layout.N_PLAIN
 
     @property
     def text(self) -> str:
@@ -64,4 +81,13 @@ class Needs(NamedTuple):
         return (
             f"MOTORED_PRESSURE_IS_WANTED = {self.motored_pressure}\n"
             f"CURRENT_IS_WANTED = {self.current}\n"
+            f"CONTENTS_ARE_WANTED = {'contents' in self.chambers}\n"
+            f"WALL_TEMPERATURE_IS_WANTED = {'wall_temperature' in self.chambers}\n"
+            f"CRANKCASE_IS_WANTED = {'crankcase' in self.chambers}\n"
+            f"N_WANTED = {self._length}\n"
         )
+
+
+def asked_for(classes: Iterable[type[Law]]) -> frozenset[str]:
+    """States of the chambers that some law classes ask for, by name."""
+    return frozenset(name for law in classes for name in law.states)

@@ -40,7 +40,10 @@ COLUMNS = (
     "kernel/state.py",
     "kernel/slots.py",
     "kernel/needs.py",
+    "kernel/flow.py",
+    "kernel/breathing.py",
     "kernel/rhs.py",
+    "kernel/events.py",
     "kernel/switch.py",
 )
 

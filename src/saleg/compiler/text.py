@@ -16,7 +16,7 @@ from typing import Any
 
 from saleg.compiler.imported_text import NoSource
 from saleg.compiler.module import without_source
-from saleg.compiler.needs import QUADRATURES, Needs
+from saleg.compiler.needs import Needs
 from saleg.compiler.records import OTHER_SLOTS
 from saleg.compiler.source import Borrowed, earlier_attributes
 from saleg.compiler.strength_reduction import EXPONENTIAL
@@ -39,6 +39,8 @@ BEFORE_SLOTS = (
 #: Modules of the kernel that make up the integrator.
 INTEGRATOR = (
     "needs",
+    "flow",
+    "breathing",
     "rhs",
     "general",
     "adaptive",
@@ -50,6 +52,8 @@ INTEGRATOR = (
     "observe",
     "integrate",
 )
+#: Modules that make up the right-hand side of :mod:`saleg.reference`.
+REFERENCE = ("needs", "flow", "plain_breathing", "plain_rhs")
 #: The return map and the search for its fixed points: they use no law, and call the integrator by
 #: its address. Where numba has no addresses it is compiled into them.
 SEARCH = (
@@ -59,16 +63,18 @@ SEARCH = (
     "kernel/state.py",
     "kernel/orbit.py",
     "kernel/orbits.py",
+    "kernel/differences.py",
     "kernel/lanes/group.py",
     "kernel/lanes/search.py",
     "compiler/run_at.py",
 )
-INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "run_plainly")
+INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "differences", "run_plainly")
 
 #: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. A function first met in one
 #: that is folded into its callers would inherit that, if it were not told. Only entry points get
 #: wrappers for Python, which halves the time to compile. Nothing in a kernel allocates, so nothing
-#: need be counted (`_nrt`): counting references to the arrays took a third of the time.
+#: need be counted (`_nrt`): counting references to the arrays took a third of the time. What
+#: a module is loaded with says in `INNER` how those that are no entry points are compiled.
 COMPILED_HEADER = """\
 inline = numba.njit(
     forceinline=True,
@@ -76,6 +82,7 @@ inline = numba.njit(
     _nrt=False,
     no_cpython_wrapper=True,
     no_cfunc_wrapper=True,
+    pipeline_class=INNER,
 )
 compiled = numba.njit(
     forceinline=False,
@@ -83,6 +90,7 @@ compiled = numba.njit(
     _nrt=False,
     no_cpython_wrapper=True,
     no_cfunc_wrapper=True,
+    pipeline_class=INNER,
 )
 """
 #: Choices (:mod:`saleg.laws.choice`) for one engine.
@@ -170,7 +178,7 @@ def _kernel_text(name: str, needs: Needs, width: int) -> str:
         # Nobody commands engines that are stepped side by side.
         written = f"{needs.text}MOTORING_IS_POSSIBLE = {width == 1}\n"
     elif name == "adaptive":
-        written = adaptive_step(needs.states, needs.kept, QUADRATURES)
+        written = adaptive_step(needs.states, needs.kept, needs.sums)
     else:
         return own_text(f"kernel/{name}.py")
     return f"# --- kernel/{name}.py\n{written}"

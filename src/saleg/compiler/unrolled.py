@@ -43,7 +43,9 @@ KEEP = """\
 """
 
 
-def adaptive_step(states: Sequence[Stretch], kept: Sequence[Stretch], quadratures: Stretch) -> str:
+def adaptive_step(
+    states: Sequence[Stretch], kept: Sequence[Stretch], sums: Sequence[Stretch]
+) -> str:
     """Text of a step of the adaptive pair and of its error.
 
     Parameters
@@ -52,13 +54,13 @@ def adaptive_step(states: Sequence[Stretch], kept: Sequence[Stretch], quadrature
         Stretches of entries that are stepped.
     kept : sequence of tuple of int
         Stretches of those that stay as they are.
-    quadratures : tuple of int
-        Stretch of entries that are summed.
+    sums : sequence of tuple of int
+        Stretches of those that are summed.
     """
     A, b, c, e = ADAPTIVE
     stages = len(b)
     moves = [_move(stage, c[stage], A[stage][:stage], states) for stage in range(1, stages)]
-    moves.append(_move(stages, 1.0, b, [*states, quadratures]))
+    moves.append(_move(stages, 1.0, b, [*states, *sums]))
     keeps = "".join(KEEP.format(first=first, end=end) for first, end in kept)
     return STEP.format(stages=stages, moves="".join(moves).rstrip(), keeps=keeps, defect=_sum(e))
 

@@ -66,11 +66,12 @@ class DesignSolver:
 
 
 class DesignSolverOfColumns(DesignSolver):
-    """The same of designs that are independent of each other, without their stability."""
+    """The same of designs that are independent of each other."""
 
     def columns(self, points: Sequence[Values], total: int) -> Columns:
         """Rows of some designs of a batch of so many, column by column."""
-        together = solved_together(self._design, points, self._rtol, self._effort, total)
+        how = self._rtol, self._effort, total, self._multipliers
+        together = solved_together(self._design, points, *how)
         return filled_up(len(points), together, lambda place: self(points[place]))
 
 
@@ -98,8 +99,7 @@ class EvaluatedDesign:
 
     def solver(self, rtol: float, multipliers: bool, warm: bool, effort: Effort) -> DesignSolver:
         """What makes a row of a point; may remember the point before."""
-        alone = multipliers or warm
-        kind = DesignSolver if alone else DesignSolverOfColumns
+        kind = DesignSolver if warm else DesignSolverOfColumns
         return kind(self.design, rtol, multipliers, warm, effort)
 
 

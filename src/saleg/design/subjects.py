@@ -91,36 +91,29 @@ class EngineSubject:
         """What makes a row of a point, from the engine's own starts."""
         if warm:
             raise SweepError("warm starts are for designs; an engine begins with its own starts")
-        if multipliers:
-            return EngineSolver(self.engine, rtol, effort, multipliers)
-        return EngineSolverOfColumns(self.engine, rtol, effort)
+        return EngineSolver(self.engine, rtol, multipliers, effort)
 
 
 @dataclasses.dataclass(frozen=True)
 class EngineSolver:
-    """Rows of an engine with some numbers replaced, one after the other."""
+    """Rows of an engine with some numbers replaced."""
 
     engine: Engine
     rtol: float
+    multipliers: bool
     effort: Effort
-    multipliers: bool = False
 
     def __call__(self, values: Values) -> Row:
         """Row of a point."""
         found = found_steady_state(self.engine.replace(**values), self.rtol, effort=self.effort)
         return steady_row(found, self.multipliers)
 
-
-class EngineSolverOfColumns(EngineSolver):
-    """The same without their stability, of many points at once."""
-
     def columns(self, points: Sequence[Values], total: int) -> Columns:
         """Rows of some points of a sweep of so many, column by column."""
         columns = {name: np.array([values[name] for values in points]) for name in points[0]}
         lots = rows_of_columns(self.engine, columns)
-        return steady_columns(
-            lots, lambda place: self(points[place]), len(points), self.rtol, self.effort, total
-        )
+        how = self.rtol, self.multipliers, self.effort, total
+        return steady_columns(lots, lambda place: self(points[place]), len(points), *how)
 
 
 def _laws(engine: Engine) -> dict[str, Any]:

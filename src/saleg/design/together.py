@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.batch.many import columns_of, cycle_figures_of
+from saleg.batch.many import columns_of, cycle_figures_of, stability_columns
 from saleg.batch.points import Values
 from saleg.batch.table import Columns
 from saleg.columns import by_branch, column
@@ -52,7 +52,12 @@ class Designs(NamedTuple):
 
 
 def solved_together(
-    design: Design, points: Sequence[Values], rtol: float, effort: Effort, total: int
+    design: Design,
+    points: Sequence[Values],
+    rtol: float,
+    effort: Effort,
+    total: int,
+    multipliers: bool = False,
 ) -> list[tuple[np.ndarray, Columns]]:
     """Columns of those designs whose loop closes where the first start leads, and their places.
 
@@ -66,6 +71,8 @@ def solved_together(
     effort : Effort
     total : int
         Number of designs in the batch they are a piece of.
+    multipliers : bool
+        Whether to differentiate each steady state.
     """
     designs = Designs(design, {name: np.array([p[name] for p in points]) for name in points[0]})
     if not all(_is_ours(getattr(design.masses, f.name)) for f in dataclasses.fields(design.masses)):
@@ -74,7 +81,7 @@ def solved_together(
     for lot, mirrored in _lots(designs, len(points)):
         orbits = _closed(designs, lot, mirrored, rtol, effort, total)
         if orbits is not None:
-            lots += _columns(designs, orbits, rtol)
+            lots += _columns(designs, orbits, rtol, multipliers)
     return lots
 
 
@@ -118,7 +125,8 @@ def _closed(
 
     taken = (QUICK_MAPS, QUICK_STEPS) if effort is Effort.QUICK else (MAX_MAPS, STEPS_PER_CALL)
     limits = Limits(*taken, MAX_MISSED)
-    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, total, tell)
+    numbers = np.array([values[lot.places] for values in designs.values.values()]).T
+    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, total, tell, numbers)
     return None if orbits is None else orbits._replace(rows=_of_mass(orbits.rows, orbits.mass))
 
 
@@ -134,7 +142,9 @@ def _of_mass(rows: Rows, mass: np.ndarray) -> Rows:
     return Rows(dataclasses.replace(rows.engine, translator=Translator(column(mass))), rows.places)
 
 
-def _columns(designs: Designs, orbits: Orbits, rtol: float) -> list[tuple[np.ndarray, Columns]]:
+def _columns(
+    designs: Designs, orbits: Orbits, rtol: float, multipliers: bool
+) -> list[tuple[np.ndarray, Columns]]:
     """Columns of orbits, as :func:`saleg.design.many.design_row` has the row of one."""
     lots = []
     for chosen, components in by_branch(
@@ -154,6 +164,8 @@ def _columns(designs: Designs, orbits: Orbits, rtol: float) -> list[tuple[np.nda
         steady = np.isin(status, [str(Status.STEADY), str(Status.IDLING)])
         for name in ("moving_mass", "power_density", "frequency_ratio"):
             columns[name] = np.where(steady, columns[name], math.nan)
+        if multipliers:
+            columns |= stability_columns(found, status)
         columns["score"] = scores(columns)
         agrees = np.abs(error) <= MASS_TOLERANCE * rtol
         if agrees.any():

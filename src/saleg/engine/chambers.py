@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 from saleg.laws import (
     CFRIgnition,
     ChangGas,
+    FixedWall,
     Hohenberg,
     InstantExchange,
     NoHeatTransfer,
+    NoLeak,
     NoMisfires,
+    Plenum,
     Wiebe,
 )
 from saleg.laws.base import (
@@ -23,7 +27,10 @@ from saleg.laws.base import (
     HeatTransfer,
     Ignition,
     Law,
+    Leak,
     Misfires,
+    Supply,
+    Wall,
 )
 from saleg.laws.usual import GAP, LENGTH
 from saleg.quantities import Quantities, quantity
@@ -116,12 +123,16 @@ class Chamber(Quantities):
         Temperature of head, liner and crown [K].
     head_gap : float
         Clearance at which the run ends with head contact [m].
+    leak, wall : Law
+        Gap past the rings, and what the temperature of the wall does.
     """
 
     bore: float = quantity("m", low=0, open_low=True, usual=BORE)
     half_stroke: float = quantity("m", low=0, open_low=True, usual=LENGTH)
     wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0, usual=WALL)
     head_gap: float = quantity("m", default=1e-4, low=0, open_low=True, usual=GAP)
+    leak: Leak = field(default_factory=NoLeak)
+    wall: Wall = field(default_factory=FixedWall)
 
     @property
     def area(self) -> float:
@@ -132,6 +143,16 @@ class Chamber(Quantities):
     def laws(self) -> dict[str, Law]:
         """Laws of the chamber by slot; only a chamber that burns fuel has laws of combustion."""
         return {slot: getattr(self, slot) for slot in CHAMBER_SLOTS if hasattr(self, slot)}
+
+    @cached_property
+    def states(self) -> frozenset[str]:
+        """States its laws ask for, beside pressure: see :attr:`saleg.laws.Law.states`."""
+        return frozenset(name for law in self.laws.values() for name in law.states)
+
+    @property
+    def is_sealed(self) -> bool:
+        """Whether it keeps its gas for ever."""
+        return False
 
     @property
     def reference_state(self) -> ReferenceState:
@@ -178,10 +199,13 @@ class Cylinder(CombustionChamber):
     port_closing : float
         Clearance between crown and head at which the ports close, d_po [m].
     intake : Intake
+    supply : Law
+        What stands before the intake ports.
     """
 
     port_closing: float = quantity("m", low=0, open_low=True, usual=LENGTH)
     intake: Intake = field(default_factory=Intake)
+    supply: Supply = field(default_factory=Plenum)
 
     @property
     def reference_state(self) -> ReferenceState:
@@ -234,6 +258,11 @@ class BounceChamber(Chamber):
     temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0, usual=TEMPERATURE)
     gas_properties: GasProperties = field(default_factory=ChangGas)
     heat_transfer: HeatTransfer = field(default_factory=NoHeatTransfer)
+
+    @property
+    def is_sealed(self) -> bool:
+        """Whether it keeps its gas for ever: no law lets any in or out."""
+        return "contents" not in self.states
 
     @property
     def reference_state(self) -> ReferenceState:

@@ -50,6 +50,18 @@ class Rows:
 
         return Rows(_changed(self.engine, some_of), self.places[chosen])
 
+    def numbers(self) -> np.ndarray:
+        """Numbers that are not the same for all, shape (n, k)."""
+        held: list[np.ndarray] = []
+
+        def noted(value: Any) -> Any:
+            if isinstance(value, Column):
+                held.append(np.asarray(value))
+            return value
+
+        _changed(self.engine, noted)
+        return np.array(held).reshape(len(held), self.count).T
+
 
 class _Unlike(Exception):
     """A tree that is no engine of plain numbers."""

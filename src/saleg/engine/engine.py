@@ -7,17 +7,24 @@ Everything is a frozen dataclass of numbers in SI units; nothing here computes. 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
 from saleg.columns import least_of
 from saleg.engine import paths
-from saleg.engine.chambers import Chamber, CombustionChamber, Fuel, Intake, Translator
+from saleg.engine.chambers import (
+    Chamber,
+    CombustionChamber,
+    Cylinder,
+    Fuel,
+    Intake,
+    Translator,
+)
 from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine, SalegWarning
-from saleg.laws import Law, LinearLoad, LinearSprings, ViscousFriction
+from saleg.laws import Crankcase, Law, LinearLoad, LinearSprings, PortFlow, ViscousFriction
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
 from saleg.laws.contract import check_laws
 from saleg.quantities import Problem, is_number, problems, unusual
@@ -317,6 +324,8 @@ def lengths_fit(engine: Engine) -> Any:
     for chamber in engine.chambers:
         gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
         fit = fit & (gap < chamber.half_stroke) & (gap < port) & (port < most)
+    for _, _, good, _, _ in _limits_of_flow(engine, most):
+        fit = fit & good
     return fit
 
 
@@ -336,4 +345,35 @@ def _geometry_problems(engine: Engine) -> list[Problem]:
         if is_number(port) and is_number(gap) and not gap < port < most:
             allowed = f"must be > head_gap ({gap:g} m) and < the maximum stroke ({most:g} m)"
             found.append(Problem(side + "port_closing", port, "m", allowed))
+    if not found and all(_has_numbers(chamber) for chamber in engine.chambers):
+        for number, path, good, unit, allowed in _limits_of_flow(engine, most):
+            if not good and number < len(sides):
+                path = sides[number] + path
+                found.append(Problem(path, paths.get(engine, path), unit, allowed))
     return found
+
+
+def _has_numbers(chamber: Chamber) -> bool:
+    """Whether all that ports and crankcase are made of are numbers."""
+    laws = [getattr(chamber, slot) for slot in ("gas_exchange", "supply") if hasattr(chamber, slot)]
+    return all(is_number(getattr(law, item.name)) for law in laws for item in fields(law))
+
+
+def _limits_of_flow(engine: Engine, most: Any) -> Iterator[tuple[int, str, Any, str, str]]:
+    """Limits of ports and crankcases: side, path, whether it is kept, unit and what is allowed."""
+    for side, chamber in enumerate(engine.chambers):
+        if not isinstance(chamber, Cylinder):
+            continue
+        ports, supply = chamber.gas_exchange, chamber.supply
+        if isinstance(ports, PortFlow):
+            room = most - chamber.port_closing
+            allowed = "must be less than the way from port_closing to the maximum stroke"
+            kept = ports.intake_delay < room
+            yield side, "gas_exchange.intake_delay", kept, "m", allowed
+        if isinstance(supply, Crankcase):
+            allowed = "must be more than the piston displaces on its way from the midpoint"
+            kept = supply.volume(most - chamber.half_stroke) > 0.0
+            yield side, "supply.volume_at_midpoint", kept, "m^3", allowed
+            allowed = "must be a PortFlow, or another law by which gas flows, with a crankcase"
+            flows = "contents" in ports.states
+            yield side, "gas_exchange", flows, "-", allowed

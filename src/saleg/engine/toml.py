@@ -27,11 +27,16 @@ from saleg.engine.engine import Engine
 from saleg.engine.start import Start
 from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest, shown
 from saleg.files.reading import read_text
-from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
+from saleg.laws import FixedWall, NoLeak, Plenum
+from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, FlowExchange
 from saleg.quantities import is_number
 
 #: Slots by name, with the base class of what fills them.
 SLOTS: dict[str, type] = {**CHAMBER_SLOTS, **ENGINE_SLOTS, "start": Start}
+#: Classes that laws derive from, and no laws themselves.
+BASES = (*SLOTS.values(), FlowExchange)
+#: Laws a file does not name: what stands in their slots if nothing is said.
+UNSAID = (NoLeak, FixedWall, Plenum)
 CHAMBERS: dict[str, type] = {
     kind.__name__: kind for kind in (Cylinder, SealedCylinder, BounceChamber)
 }
@@ -64,7 +69,7 @@ def laws_by_slot(own: Iterable[type] = ()) -> dict[str, dict[str, type]]:
     found: dict[str, dict[str, type]] = {slot: {} for slot in SLOTS}
     for law in [*candidates, *own]:
         for slot, base in SLOTS.items():
-            if isinstance(law, type) and issubclass(law, base) and law is not base:
+            if isinstance(law, type) and issubclass(law, base) and law not in BASES:
                 found[slot][law.__name__] = law
     return found
 
@@ -168,6 +173,8 @@ def _table(path: str, node: Any) -> list[str]:
         lines.append(f"{word} = {_quoted(type(node).__name__)}")
     for item in dataclasses.fields(node):
         value = getattr(node, item.name)
+        if type(value) in UNSAID:
+            continue
         if dataclasses.is_dataclass(value):
             below += _table(f"{path}.{item.name}", value)
         else:

@@ -11,7 +11,7 @@ import numpy as np
 
 from saleg.errors import RunFileError
 from saleg.export.description import Column, Description, Stored
-from saleg.export.units import CODES, LAYOUTS
+from saleg.export.units import CODES, LATER_FIELDS, LAYOUTS
 from saleg.files.atomic import write_text
 from saleg.files.reading import decoded, is_folder
 from saleg.files.tables import DamagedTable, label, read_table, write_table
@@ -45,14 +45,18 @@ def opened(folder: Path) -> Iterator[Stored]:
     @lru_cache(maxsize=1)
     def rows(table: str) -> np.ndarray:
         path, places = folder / f"{table}.csv", LAYOUTS[table].places
-        needed = [label(name, place.unit) for name, place in places.items()]
+        before = (item for item in places.items() if item[1].field not in LATER_FIELDS)
+        needed = [label(name, place.unit) for name, place in before]
         try:
             return read_table(path, is_text=CODES.__contains__, needed=needed)
         except DamagedTable as error:
             raise RunFileError(f"{path.name} is damaged: {error}") from None
 
     def column(table: str, name: str) -> np.ndarray:
-        values = rows(table)[label(name, LAYOUTS[table].places[name].unit)]
+        held, word = rows(table), label(name, LAYOUTS[table].places[name].unit)
+        if word not in (held.dtype.names or ()):
+            raise KeyError(name)
+        values = held[word]
         return _codes(name, values) if name in CODES else values
 
     texts = _read_text(folder / ENGINE), _read_text(folder / FACTS)

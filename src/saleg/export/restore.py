@@ -23,7 +23,7 @@ from saleg.export.description import (
     checksum,
     checksum_of_texts,
 )
-from saleg.export.units import LAYOUTS
+from saleg.export.units import LATER_FIELDS, LAYOUTS
 from saleg.simulation.run import Run
 from saleg.status import Status
 
@@ -62,7 +62,7 @@ def restored(stored: Stored, laws: Sequence[type] = ()) -> Run:
     rows = {name: _rows(stored, name, count) for name, count in facts["rows"].items()}
     if stored.is_exact:
         for name, held in rows.items():
-            if checksum(held) != facts["checksums"][name]:
+            if facts["checksums"][name] not in (checksum(held), checksum(_as_before(held))):
                 raise RunFileError(f"it is damaged: {name} are not what was saved")
     orbit = None
     if facts["orbit"] is not None:
@@ -72,6 +72,15 @@ def restored(stored: Stored, laws: Sequence[type] = ()) -> Run:
     if orbit is not None:
         run.replay = lambda: orbit
     return run
+
+
+def _as_before(rows: np.ndarray) -> np.ndarray:
+    """Records without the fields that earlier versions did not have."""
+    names = [name for name in rows.dtype.names or () if name not in LATER_FIELDS]
+    kept = np.empty(len(rows), np.dtype([(name, rows.dtype[name]) for name in names]))
+    for name in names:
+        kept[name] = rows[name]
+    return kept
 
 
 def _run(
@@ -132,7 +141,12 @@ def _rows(stored: Stored, table: str, count: int) -> np.ndarray:
     dtype, places = LAYOUTS[table]
     rows = np.zeros(0, dtype)
     for name, place in places.items():
-        values = stored.column(table, name)
+        try:
+            values = stored.column(table, name)
+        except KeyError:
+            if place.field not in LATER_FIELDS:
+                raise
+            values = np.zeros(count)
         if values.shape != (count,):
             raise RunFileError(
                 f"{table}.{name} should have {count} rows but has {values.size}: "

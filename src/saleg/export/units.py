@@ -47,7 +47,27 @@ STROKE_UNITS = {
     "ignition_time": "s",
     "ignition_height": "m",
     "combustion_duration": "s",
+    "fresh_mass": "kg",
+    "closing_mass": "kg",
+    "closing_temperature": "K",
+    "supplied_mass": "kg",
+    "expelled_mass": "kg",
+    "expelled_fresh": "kg",
+    "crankcase_work": "J",
+    "wall_temperature": "K",
 }
+
+#: Fields of the strokes that files of earlier versions do not have: 0 in what they are read as.
+LATER_FIELDS = (
+    "fresh_mass",
+    "closing_mass",
+    "closing_temperature",
+    "supplied_mass",
+    "expelled_mass",
+    "expelled_fresh",
+    "crankcase_work",
+    "wall_temperature",
+)
 
 #: Words for the whole numbers in a column, by the column's name.
 CODES = {"event": layout.EVENT_NAMES, "side": ("left", "right")}

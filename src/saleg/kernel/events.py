@@ -2,6 +2,7 @@
 
 from math import exp, inf, isfinite, log1p, sqrt
 
+from saleg.kernel.breathing import breathes, dilution, has_own_pressure, mass_of
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     BREAKPOINT,
@@ -14,7 +15,6 @@ from saleg.kernel.layout import (
     HEAD,
     IGNITION,
     LIGHT,
-    N_ALL,
     N_EVENTS,
     N_STATE,
     OPEN,
@@ -23,6 +23,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
+from saleg.kernel.needs import N_WANTED
 from saleg.kernel.rhs import ln_clearance_of, ln_temperature, rhs
 from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
@@ -85,7 +86,10 @@ def event_rate(E, C, event, y, dy):
         return dy[IGNITION + side]
     if event < HEAD:
         clearance = clearance_of(C, side, y[X])
-        return -c.beyond_breakpoint * (dy[THETA + side] + (1.0 - G0) * c.sign * y[V] / clearance)
+        rate = dy[THETA + side] + (1.0 - G0) * c.sign * y[V] / clearance
+        if breathes(C, side):
+            rate -= dilution(C, side, y, dy)
+        return -c.beyond_breakpoint * rate
     return -c.sign * y[V]
 
 
@@ -190,7 +194,8 @@ def carry(P, E, C, O, stages, t, s, ds, y, k, y_new):
     """Carry the end of a step of length `s` a little further, along the cubic through both ends."""
     end = k[stages]
     u, w = 1.0 + ds / s, -ds / s
-    for n in range(N_ALL):  # as an increment: what does not change stays as it is to the last bit
+    # As an increment: what does not change stays as it is to the last bit.
+    for n in range(N_WANTED):
         back = (1.0 + 2.0 * u) * (y[n] - y_new[n]) + u * s * k[0, n]
         y_new[n] += w * w * back - u * u * w * s * end[n]
     if O.peaks > 1 or O.history > 0:  # somebody looks at the rates there
@@ -275,7 +280,7 @@ def is_sound(C, y):
     states, quadratures = 0.0, 0.0  # two sums, not finite if any of their terms is not
     for n in range(N_STATE):
         states += y[n]
-    for n in range(N_STATE, N_ALL):
+    for n in range(N_STATE, N_WANTED):
         quadratures += y[n]
     sound = (clearance_of(C, 0, y[X]) > 0.0) & (clearance_of(C, 1, y[X]) > 0.0)
     return sound & isfinite(states + quadratures)
@@ -300,9 +305,10 @@ def ln_pressure(C, side, x, theta):
 def pressure_and_temperature(C, side, y):
     """Pressure [Pa] and temperature [K] in a chamber, open or closed."""
     c = C[side]
-    p, T, closed = c.intake_pressure, c.intake_temperature, c.mode != OPEN
-    if any_of(closed):
-        p = where(closed, exp(ln_pressure(C, side, y[X], y[THETA + side])), p)
-        T_closed = p * c.area * clearance_of(C, side, y[X]) / (c.mass * c.gas_constant)
-        T = where(closed, T_closed, T)
+    c = C[side]
+    p, T, own = c.intake_pressure, c.intake_temperature, has_own_pressure(C, side)
+    if any_of(own):
+        p = where(own, exp(ln_pressure(C, side, y[X], y[THETA + side])), p)
+        pV = p * c.area * clearance_of(C, side, y[X])
+        T = where(own, pV / (mass_of(C, side, y) * c.gas_constant), T)
     return p, T

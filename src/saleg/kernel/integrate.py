@@ -32,7 +32,6 @@ from saleg.kernel.layout import (
     HEAD_CONTACT,
     LEFT,
     MAX_STEPS,
-    N_ALL,
     N_PEAKS,
     PEAK_PRESSURE,
     RIGHT,
@@ -43,6 +42,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
+from saleg.kernel.needs import N_WANTED
 from saleg.kernel.observe import observe
 from saleg.kernel.peaks import watch_point, watch_step
 from saleg.kernel.rhs import refresh, rhs
@@ -138,7 +138,7 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
             continue
         if O.adaptive == 0:
             return h, t + h if rejected else end, -1
-        error = error_norm(E, h, y, y_new, k, O.tolerance)
+        error = error_norm(E, C, h, y, y_new, k, O.tolerance)
         if error <= 1.0:
             step = control_step(E, C, order, h, error, rejected, y, y_new)
             E.next_step, E.ln_last_error = step
@@ -177,7 +177,7 @@ def accept(E, O, h, full, end, y, y_new, k, stages):
     E.jerk = (k[stages, V] - k[0, V]) / h if h > 0.0 else 0.0
     if O.adaptive == 0 and E.t >= (E.grid + 1.0) * O.step:
         E.grid += 1.0
-    for n in range(N_ALL):
+    for n in range(N_WANTED):
         y[n] = y_new[n]
         k[0, n] = k[stages, n]
 
@@ -197,7 +197,7 @@ def observe_within(P, E, C, O, tableau, h, y, k, spare, tables):
     t = E.t
     for i in range(1, O.dense + 1):
         part = h * i / (O.dense + 1.0)
-        for n in range(N_ALL):
+        for n in range(N_WANTED):
             spare.rates[0, n] = k[0, n]
         take_step(P, E, C, O, tableau, t, part, y, spare.rates, spare.y_new)
         E.t = t + part

@@ -4,9 +4,9 @@ import numpy as np
 
 from saleg.laws.arguments import Commands, Signals
 
-# Sides.
-LEFT = 0
-RIGHT = 1
+# Sides. Whole numbers of numpy's: for Python's own numba compiles each function once per value.
+LEFT = np.int64(0)
+RIGHT = np.int64(1)
 
 # Modes of a chamber; they belong to the kernel, no law ever sees or sets them.
 OPEN = 0
@@ -43,10 +43,39 @@ HEAT_LOST = 8
 GAS_WORK = 10
 PORT_WORK = 12
 N_QUADRATURES = 14
-N_ALL = N_STATE + N_QUADRATURES
+N_PLAIN = N_STATE + N_QUADRATURES
+
+# States of the chambers that some laws ask for, left and right: masses of fuel, air and burnt gas
+# and of what has flowed in since the ports opened [kg]; temperature of the wall [K]; in the
+# crankcase ln p + G0 ln(V/V_midpoint), mass and burnt gas in it [kg].
+FUEL = 23
+AIR = 25
+BURNT = 27
+FRESH = 29
+WALL = 31
+CRANKCASE_THETA = 33
+CRANKCASE_MASS = 35
+CRANKCASE_BURNT = 37
+# What has passed since the dead centre, left and right: mass and fuel in through the intake; mass,
+# fuel and fresh gas out, back into the intake too [kg]; enthalpy out, less that in, and work of
+# the crankcase [J].
+SUPPLIED = 39
+SUPPLIED_FUEL = 41
+EXPELLED = 43
+EXPELLED_FUEL = 45
+EXPELLED_FRESH = 47
+ENTHALPY_OUT = 49
+CRANKCASE_WORK = 51
+N_ALL = 53
+#: Those states by the names laws ask for them, as the first entry and the one after the last.
+CHAMBER_STATES = {
+    "contents": (FUEL, WALL),
+    "wall_temperature": (WALL, CRANKCASE_THETA),
+    "crankcase": (CRANKCASE_THETA, SUPPLIED),
+}
 
 # Length of the vector a state at a dead centre is written as (see kernel/orbit.py).
-VECTOR_PER_SIDE = 11
+VECTOR_PER_SIDE = 16
 N_VECTOR = 8 + 2 * VECTOR_PER_SIDE + 1
 
 # Quantities whose greatest value in a stroke is kept.
@@ -248,6 +277,9 @@ CHAMBER_RECORD = np.dtype(
     + [(name, np.float64) for name in ("curve_exponent", "renewal_due")]
     # Intake temperature less the engine's rated one; equivalence ratio over the rated one.
     + [(name, np.float64) for name in ("beside_rated_temperature", "over_rated_fuel")]
+    # Whether its masses are states, and gas flows through its ports; mass when lit; of what
+    # flowed in since the ports opened, what was left when they closed.
+    + [(name, np.float64) for name in ("breathes", "by_flow", "mass_lit", "fresh")]
 )
 
 #: One row per stroke, written at the dead centre that ends it. Values per side are left, right.
@@ -297,6 +329,14 @@ STROKE_RECORD = np.dtype(
             "ignition_time",
             "ignition_height",
             "combustion_duration",
+            "fresh_mass",
+            "closing_mass",
+            "closing_temperature",
+            "supplied_mass",
+            "expelled_mass",
+            "expelled_fresh",
+            "crankcase_work",
+            "wall_temperature",
         )
     ]
 )

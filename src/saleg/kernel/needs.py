@@ -4,7 +4,14 @@ A composed module has the answers for its laws in their place (:mod:`saleg.compi
 what nobody asks for is neither computed nor stepped.
 """
 
+from saleg.kernel.layout import N_ALL
+
 MOTORED_PRESSURE_IS_WANTED = True
 CURRENT_IS_WANTED = True
-#: Whether the alternator may be a motor: a controller commands the engine.
+CONTENTS_ARE_WANTED = True
+WALL_TEMPERATURE_IS_WANTED = True
+CRANKCASE_IS_WANTED = True
+# Whether the alternator may be a motor: a controller commands the engine.
 MOTORING_IS_POSSIBLE = True
+# Length of the state up to its last entry that is wanted.
+N_WANTED = N_ALL

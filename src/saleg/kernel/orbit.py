@@ -6,26 +6,44 @@ dimensionless numbers it can be compared, extrapolated and put back. A mirrored 
 itself, seen in the mirror, after half a cycle.
 """
 
-from math import exp, inf, isfinite, log
+from math import asinh, exp, inf, isfinite, log, sinh
+
+import numpy as np
 
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
+    AIR,
     BURNING,
+    BURNT,
+    CRANKCASE_BURNT,
+    CRANKCASE_MASS,
+    CRANKCASE_THETA,
     CURRENT,
     END_OF_TIME,
+    FRESH,
+    FUEL,
     IGNITION,
     MOTORED,
+    N_ALL,
+    N_PEAKS,
     N_VECTOR,
     NO_DEAD_CENTRE,
     NOT_FOUND,
     OPEN,
+    SUPPLIED,
     THETA,
     VECTOR_PER_SIDE,
+    WALL,
     V,
     X,
 )
 from saleg.kernel.run_plainly import run_at
-from saleg.kernel.state import begin_stroke, keep_snapshot
+from saleg.kernel.state import begin_stroke, copy_row, keep_snapshot
+
+# Whether a map is that of half a cycle, seen in the mirror. Numpy's own: for Python's own numba
+# compiles each function once per value.
+HALF_CYCLE = np.bool_(True)
+WHOLE_CYCLE = np.bool_(False)
 
 # What do_orbit is asked for.
 FIND = 0
@@ -61,6 +79,13 @@ Z_RATIO = 7
 Z_BURN_PHASE = 8
 Z_LN_DURATION = 9
 Z_TO_BURN = 10
+Z_FRESH = 11
+Z_WALL = 12
+Z_LN_CRANKCASE = 13
+Z_CRANKCASE_MASS = 14
+Z_CRANKCASE_BURNT = 15
+# Unit of a wall's temperature in the vector [K]: a power of two, which rounds nothing.
+WALL_SCALE = 512.0
 Z_LN_MASS_MOVING = Z_CHAMBERS + 2 * VECTOR_PER_SIDE
 
 
@@ -70,7 +95,7 @@ def write_vector(E, C, y, z):
     z[Z_POSITION] = y[X] / E.length_scale
     z[Z_LN_SPEED] = log(max(E.mean_piston_speed, 1e-300))
     z[Z_WEIGHT] = E.load_weight
-    z[Z_FRICTION] = E.friction_held
+    z[Z_FRICTION] = asinh(E.friction_held)  # what a law remembers may be of any size
     z[Z_STROKE] = E.stroke / E.length_scale
     z[Z_FUEL_ENERGY] = E.last_fuel_energy / (E.mass * E.speed_scale**2)
     z[Z_SPEED_SQUARED] = E.last_speed_squared / (E.speed_scale * E.length_scale)
@@ -79,7 +104,7 @@ def write_vector(E, C, y, z):
     for side in range(2):
         c = C[side]
         first = Z_CHAMBERS + VECTOR_PER_SIDE * side
-        closed = c.mode != OPEN
+        closed = c.mode != OPEN or c.by_flow > 0.0
         z[first + Z_LN_PRESSURE] = y[THETA + side] if closed else 0.0
         z[first + Z_INTEGRAL] = y[IGNITION + side] if closed else 0.0
         z[first + Z_LN_MOTORED] = y[MOTORED + side] if closed else 0.0
@@ -92,24 +117,46 @@ def write_vector(E, C, y, z):
         z[first + Z_BURN_PHASE] = (E.t - c.t_ignition) / c.duration if burning else 0.0
         z[first + Z_LN_DURATION] = log(c.duration) if burning else 0.0
         z[first + Z_TO_BURN] = c.fuel_to_burn / c.mass if burning else 0.0
+        z[first + Z_FRESH] = y[FRESH + side] / c.mass
+        z[first + Z_WALL] = y[WALL + side] / WALL_SCALE
+        crankcase = y[CRANKCASE_MASS + side]
+        z[first + Z_LN_CRANKCASE] = y[CRANKCASE_THETA + side]
+        z[first + Z_CRANKCASE_MASS] = log(crankcase) if crankcase > 0.0 else 0.0
+        z[first + Z_CRANKCASE_BURNT] = y[CRANKCASE_BURNT + side] / max(crankcase, 1e-300)
+
+
+@inline
+def read_contents(C, side, y, z, first):
+    """Set from a vector the states of a chamber that only some laws ask for."""
+    c = C[side]
+    if c.breathes > 0.0:
+        c.burnt = c.mass - c.fuel - c.air
+        y[FUEL + side], y[AIR + side], y[BURNT + side] = c.fuel, c.air, c.burnt
+        y[FRESH + side] = z[first + Z_FRESH] * c.mass
+    y[WALL + side] = z[first + Z_WALL] * WALL_SCALE
+    c.wall_temperature = y[WALL + side]
+    if y[CRANKCASE_MASS + side] > 0.0:
+        y[CRANKCASE_THETA + side] = z[first + Z_LN_CRANKCASE]
+        y[CRANKCASE_MASS + side] = exp(z[first + Z_CRANKCASE_MASS])
+        y[CRANKCASE_BURNT + side] = z[first + Z_CRANKCASE_BURNT] * y[CRANKCASE_MASS + side]
 
 
 @compiled
 def read_vector(E, C, y, z):
     """Set the state from a vector; modes, and all else that is not in it, stay as they are."""
+    if E.mass_fixed > 0.0:
+        E.mass = exp(z[Z_LN_MASS_MOVING])
     y[X] = z[Z_POSITION] * E.length_scale
     y[V] = 0.0
     E.x_dead_centre = y[X]
     E.t_dead_centre = E.t
     E.mean_piston_speed = exp(z[Z_LN_SPEED])
     E.load_weight = z[Z_WEIGHT]
-    E.friction_held = z[Z_FRICTION]
+    E.friction_held = sinh(z[Z_FRICTION])
     E.stroke = z[Z_STROKE] * E.length_scale
     E.last_fuel_energy = z[Z_FUEL_ENERGY] * (E.mass * E.speed_scale**2)
     E.last_speed_squared = z[Z_SPEED_SQUARED] * (E.speed_scale * E.length_scale)
     y[CURRENT] = z[Z_AMPERES] * E.current_scale
-    if E.mass_fixed > 0.0:
-        E.mass = exp(z[Z_LN_MASS_MOVING])
     for side in range(2):
         c = C[side]
         first = Z_CHAMBERS + VECTOR_PER_SIDE * side
@@ -118,7 +165,8 @@ def read_vector(E, C, y, z):
         c.air = max(z[first + Z_AIR], 0.0) * c.mass
         c.burnt = z[first + Z_BURNT] * c.mass
         c.equivalence_ratio = z[first + Z_RATIO]
-        if c.mode == OPEN:
+        read_contents(C, side, y, z, first)
+        if c.mode == OPEN and c.by_flow <= 0.0:
             continue
         y[THETA + side] = z[first + Z_LN_PRESSURE]
         y[IGNITION + side] = z[first + Z_INTEGRAL]
@@ -142,9 +190,27 @@ def mirror(E, C, y, words):
     C[0].sign, C[1].sign = 1.0, -1.0
     for first in (THETA, IGNITION, MOTORED):
         y[first], y[first + 1] = y[first + 1], y[first]
+    for first in range(FUEL, SUPPLIED, 2):
+        y[first], y[first + 1] = y[first + 1], y[first]
     y[X], y[V], y[CURRENT] = -y[X], -y[V], -y[CURRENT]
     E.x_dead_centre = -E.x_dead_centre
     E.direction = -E.direction
+
+
+@inline
+def take_state(held, row, run):
+    """Copy the state of one of many engines into the arguments of the integrator.
+
+    `held` are searches or differences: both hold engines, chambers, states and longest times.
+    """
+    copy_row(run.engine, 0, held.engine, row)
+    for side in range(2):
+        copy_row(run.chambers, side, held.chambers, 2 * row + side)
+    for n in range(N_ALL):
+        run.y[n] = held.y[row, n]
+    for n in range(N_PEAKS):
+        run.peaks[n] = 0.0
+    run.options[0].longest = held.longest[row]
 
 
 @inline
@@ -310,7 +376,7 @@ def whole_cycle(mapping, iterates, found):
     goes into the snapshots; `found.missed` is how far the cycle misses it.
     """
     begin_cycle(mapping.integration, iterates)
-    code = next_return(mapping, False)
+    code = next_return(mapping, WHOLE_CYCLE)
     end_cycle(mapping.integration, iterates, found)
     return code
 

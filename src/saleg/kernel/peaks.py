@@ -7,22 +7,24 @@ cubic between there and the nearer end.
 
 from math import sqrt
 
+from saleg.kernel.breathing import breathes, dilution, has_own_pressure
 from saleg.kernel.events import cubic, pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    FUEL,
     G0,
-    N_ALL,
     N_PEAKS,
     N_STATE,
-    OPEN,
     PEAK_ACCELERATION,
     PEAK_PRESSURE_RISE,
     PEAK_TEMPERATURE,
     PEAK_VELOCITY,
+    SUPPLIED,
     THETA,
     V,
     X,
 )
+from saleg.kernel.needs import N_WANTED
 from saleg.kernel.rhs import rhs
 from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
@@ -39,7 +41,7 @@ def pressure_rate(C, side, y, dy):
     """Relative rate of the pressure [1/s]."""
     c = C[side]
     rate = dy[THETA + side] - G0 * c.sign * y[V] / clearance_of(C, side, y[X])
-    return where(c.mode == OPEN, 0.0, rate)
+    return where(has_own_pressure(C, side), rate, 0.0)
 
 
 @inline
@@ -65,8 +67,10 @@ def known_rate(C, peak, y, dy):
     rate = pressure_rate(C, side, y, dy)
     if peak < PEAK_TEMPERATURE:
         return rate
-    growth = C[side].sign * y[V] / clearance_of(C, side, y[X])
-    return where(C[side].mode == OPEN, 0.0, rate + growth)
+    if breathes(C, side):
+        rate -= dilution(C, side, y, dy)
+    rate += C[side].sign * y[V] / clearance_of(C, side, y[X])
+    return where(has_own_pressure(C, side), rate, 0.0)
 
 
 @compiled
@@ -77,6 +81,8 @@ def found_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
     """
     dt = 1e-6 * E.length_scale / E.speed_scale
     for n in range(N_STATE):
+        spare_y[n] = y[n] + dt * dy[n]
+    for n in range(FUEL, min(SUPPLIED, N_WANTED)):
         spare_y[n] = y[n] + dt * dy[n]
     rhs(P, E, C, t + dt, spare_y, spare_dy, motored)
     E.evaluations += 1.0
@@ -117,7 +123,9 @@ def rises(C, peak, y, dy):
     c = C[side]
     share = G0 if peak < PEAK_TEMPERATURE else G0 - 1.0
     closer = dy[THETA + side] * clearance_of(C, side, y[X]) - share * c.sign * y[V]
-    return (c.mode != OPEN) & (closer > 0.0)
+    if peak >= PEAK_TEMPERATURE and breathes(C, side):
+        closer -= dilution(C, side, y, dy) * clearance_of(C, side, y[X])
+    return has_own_pressure(C, side) & (closer > 0.0)
 
 
 @inline
@@ -199,7 +207,7 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
     if r1 > 0.0:
         return
     s = top_of_cubic(q0, r0, q1, r1, h)
-    for n in range(N_ALL):
+    for n in range(N_WANTED):
         spare_k[0, n] = k[0, n]
     take_step(P, E, C, O, tableau, t, s, y, spare_k, inner)
     q, r = value_and_rate(P, E, C, peak, t + s, inner, spare_k[last], spare_y, spare_dy, motored)

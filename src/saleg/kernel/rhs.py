@@ -7,18 +7,33 @@ chambers' records (see :mod:`saleg.kernel.layout`), `side` 0 for left and 1 for 
 from math import exp, inf, log, pi, sin
 from typing import NamedTuple
 
+from saleg.kernel.breathing import (
+    Flows,
+    breathes,
+    by_flow,
+    chamber_flows,
+    crankcase_force,
+    has_own_pressure,
+    mass_of,
+    no_flows,
+    wall_of,
+    write_contents,
+)
 from saleg.kernel.copies import motored_gas, with_pressure_rate
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    AIR,
     ALTERNATOR_IMPULSE,
     ALTERNATOR_WORK,
     BURNING,
+    BURNT,
     CLOSED,
     CURRENT,
     DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
     FRICTION_WORK,
+    FUEL,
     G0,
     GAS_WORK,
     HEAT_LOST,
@@ -36,7 +51,14 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.logarithms import Logarithms
-from saleg.kernel.needs import CURRENT_IS_WANTED, MOTORED_PRESSURE_IS_WANTED, MOTORING_IS_POSSIBLE
+from saleg.kernel.needs import (
+    CONTENTS_ARE_WANTED,
+    CRANKCASE_IS_WANTED,
+    CURRENT_IS_WANTED,
+    MOTORED_PRESSURE_IS_WANTED,
+    MOTORING_IS_POSSIBLE,
+    WALL_TEMPERATURE_IS_WANTED,
+)
 from saleg.kernel.slots import (
     actuators_motor_power,
     alternator_current_rate,
@@ -44,6 +66,7 @@ from saleg.kernel.slots import (
     alternator_force,
     alternator_next_breakpoint,
     friction_force,
+    gas_exchange_next_breakpoint,
     gas_properties_breakpoint,
     gas_properties_gamma,
     heat_release_burn_rate,
@@ -72,28 +95,44 @@ def ln_clearance_of(C, side, x):
 
 
 @inline
+def ln_mass_gas_of(C, side, y):
+    """Natural logarithm of mass times gas constant [J/K]."""
+    if breathes(C, side):
+        return log(mass_of(C, side, y) * C[side].gas_constant)
+    return C[side].ln_mass_gas
+
+
+@inline
+def per_mass_gas_of(C, side, y):
+    """One over mass times gas constant [K/J]."""
+    if breathes(C, side):
+        return 1.0 / (mass_of(C, side, y) * C[side].gas_constant)
+    return C[side].per_mass_gas
+
+
+@inline
 def ln_temperature(C, side, y):
     """Natural logarithm of the temperature in a closed chamber [K]."""
     c = C[side]
     ln_clearance = ln_clearance_of(C, side, y[X])
-    return y[THETA + side] + (1.0 - G0) * ln_clearance + c.ln_volume - c.ln_mass_gas
+    return y[THETA + side] + (1.0 - G0) * ln_clearance + c.ln_volume - ln_mass_gas_of(C, side, y)
 
 
 @inline
-def gas_at(E, C, side, x, v, p, p_motored):
-    """Gas in a closed chamber, as the laws see it."""
+def gas_at(E, C, side, y, x, v, p, p_motored):
+    """Gas in a closed chamber with the contents and the wall of `y`, as the laws see it."""
     c = C[side]
     clearance = clearance_of(C, side, x)
     volume = c.area * clearance
     return Gas(
         p=p,
-        T=p * volume * c.per_mass_gas,
+        T=p * volume * per_mass_gas_of(C, side, y),
         V=volume,
         p_motored=p_motored,
         clearance=clearance,
         bore=c.bore,
         mean_piston_speed=E.mean_piston_speed,
-        wall_temperature=c.wall_temperature,
+        wall_temperature=wall_of(C, side, y),
         burning=where(c.mode == BURNING, 1.0, 0.0),
         clearance_rate=c.sign * v,
         p_rate=0.0,
@@ -106,27 +145,29 @@ def gas_of(E, C, side, y, motored):
     shift = G0 * ln_clearance_of(C, side, y[X])
     p = exp(y[THETA + side] - shift)
     p_motored = exp(y[MOTORED + side] - shift) if motored else p
-    return gas_at(E, C, side, y[X], y[V], p, p_motored)
+    return gas_at(E, C, side, y, y[X], y[V], p, p_motored)
 
 
 @inline
-def logarithms_of(C, side, ln_clearance, ln_p, constants):
+def logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, constants):
     """Logarithms of the state of the gas, with the constants of a law."""
-    c = C[side]
-    ln_V = ln_clearance + c.ln_volume
-    ln_T = ln_p + ln_V - c.ln_mass_gas
+    ln_V = ln_clearance + C[side].ln_volume
+    ln_T = ln_p + ln_V - ln_mass_gas
     return Logarithms(ln_p, ln_T, ln_V, constants[0], constants[1], constants[2])
 
 
 @inline
-def charge_of(E, C, side):
-    """Charge since port closing, as the laws see it."""
+def charge_of(E, C, side, y):
+    """Charge since port closing, as the laws see it; in a chamber that breathes, what is left."""
     c = C[side]
+    fuel, air, burnt = c.fuel, c.air, c.burnt
+    if breathes(C, side):
+        fuel, air, burnt = y[FUEL + side], y[AIR + side], y[BURNT + side]
     return Charge(
-        mass=c.mass,
-        fuel=c.fuel,
-        air=c.air,
-        burnt=c.burnt,
+        mass=mass_of(C, side, y),
+        fuel=fuel,
+        air=air,
+        burnt=burnt,
         equivalence_ratio=c.equivalence_ratio,
         p=c.p_closing,
         T=c.T_closing,
@@ -144,13 +185,15 @@ def heat_loss(P, C, side, gas, charge, logarithms):
 
 
 @inline
-def heat_release(P, C, side, t):
-    """Heat released by combustion [W], Eq. 53."""
+def heat_release(P, C, side, t, y):
+    """Heat released by combustion [W], Eq. 53; what leaks meanwhile takes its share along."""
     c = C[side]
     released, burning = 0.0, c.mode == BURNING
     if any_of(burning):
         u = min(max((t - c.t_ignition) / c.duration, c.first_phase), c.last_phase)
         energy = c.fuel_to_burn * c.lower_heating_value
+        if breathes(C, side):
+            energy *= mass_of(C, side, y) / c.mass_lit
         flow = energy / c.duration * heat_release_burn_rate(P, side, u)
         released = where(burning, flow, 0.0)
     return released
@@ -176,6 +219,8 @@ class ChamberRates(NamedTuple):
         Rates of theta, of the ignition integral and of theta of the motored pressure [1/s].
     released, lost : float
         Heat released by combustion and lost to the wall [W].
+    flows : Flows
+        Gas that flows in and out.
     """
 
     p: float
@@ -184,45 +229,57 @@ class ChamberRates(NamedTuple):
     motored: float
     released: float
     lost: float
+    flows: Flows
 
 
 @inline
 def chamber_rates(P, E, C, side, t, y, motored):
     """Pressure, rates and heat flows of one chamber."""
     c = C[side]
-    p, closed = c.intake_pressure, c.mode != OPEN
+    p, own = c.intake_pressure, has_own_pressure(C, side)
     rate, ignition, motored_rate, released, lost = 0.0, 0.0, 0.0, 0.0, 0.0
-    if any_of(closed):
+    flows = no_flows()
+    if any_of(own):
         clearance_rate = c.sign * y[V]
         ln_clearance = ln_clearance_of(C, side, y[X])
         ln_p = y[THETA + side] - G0 * ln_clearance
-        p_closed = p_motored = exp(ln_p)
-        if MOTORED_PRESSURE_IS_WANTED and motored:
-            p_motored = exp(y[MOTORED + side] - G0 * ln_clearance)
-        gas = gas_at(E, C, side, y[X], y[V], p_closed, p_motored)
-        charge = charge_of(E, C, side)
-        heat_constants = (c.heat_first, c.heat_second, c.heat_third)
-        logarithms = logarithms_of(C, side, ln_clearance, ln_p, heat_constants)
-        heat_released = heat_release(P, C, side, t)
-        heat_lost = heat_loss(P, C, side, gas, charge, logarithms)
-        rate_closed = theta_rate(P, side, gas, clearance_rate, heat_released - heat_lost)
-        lights = (c.armed > DISARMED) & (c.mode == CLOSED)
-        if any_of(lights):
-            relative_rate = rate_closed - G0 * clearance_rate / gas.clearance
-            rising = with_pressure_rate(gas, gas.p * relative_rate)
-            constants = (c.ignition_first, c.ignition_second, c.ignition_third)
-            logarithms = logarithms_of(C, side, ln_clearance, ln_p, constants)
-            ignition = where(lights, ignition_rate(P, side, rising, charge, logarithms), 0.0)
+        p_own = p_motored = exp(ln_p)
         if MOTORED_PRESSURE_IS_WANTED and motored:
             ln_p_motored = y[MOTORED + side] - G0 * ln_clearance
-            cold = motored_gas(gas, gas.p_motored * gas.V * c.per_mass_gas)
-            logarithms = logarithms_of(C, side, ln_clearance, ln_p_motored, heat_constants)
+            p_motored = where(c.mode == OPEN, p_own, exp(ln_p_motored))
+        gas = gas_at(E, C, side, y, y[X], y[V], p_own, p_motored)
+        charge = charge_of(E, C, side, y)
+        heat_released = heat_release(P, C, side, t, y)
+        heat_constants = (c.heat_first, c.heat_second, c.heat_third)
+        if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:  # charge and wall change all the time
+            heat_constants = heat_transfer_coefficient_constants(P, side, gas, charge)
+        ln_mass_gas = ln_mass_gas_of(C, side, y)
+        logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, heat_constants)
+        heat_lost = heat_loss(P, C, side, gas, charge, logarithms)
+        rate_own = theta_rate(P, side, gas, clearance_rate, heat_released - heat_lost)
+        if CONTENTS_ARE_WANTED and breathes(C, side):
+            flows = chamber_flows(P, C, side, y, gas)
+            rate_own += flows.ln_p
+        lights = (c.armed > DISARMED) & (c.mode == CLOSED)
+        if any_of(lights):
+            relative_rate = rate_own - G0 * clearance_rate / gas.clearance
+            rising = with_pressure_rate(gas, gas.p * relative_rate)
+            constants = (c.ignition_first, c.ignition_second, c.ignition_third)
+            if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:
+                constants = ignition_rate_constants(P, side, gas, charge)
+            logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, constants)
+            ignition = where(lights, ignition_rate(P, side, rising, charge, logarithms), 0.0)
+        if MOTORED_PRESSURE_IS_WANTED and motored:
+            cold = motored_gas(gas, gas.p_motored * gas.V * per_mass_gas_of(C, side, y))
+            logarithms = logarithms_of(
+                C, side, ln_clearance, ln_p_motored, ln_mass_gas, heat_constants
+            )
             cooled = heat_loss(P, C, side, cold, charge, logarithms)
             cold_rate = theta_rate(P, side, cold, clearance_rate, -cooled)
-            motored_rate = where(closed, cold_rate, 0.0)
-        p, rate = where(closed, p_closed, p), where(closed, rate_closed, 0.0)
-        released, lost = where(closed, heat_released, 0.0), where(closed, heat_lost, 0.0)
-    return ChamberRates(p, rate, ignition, motored_rate, released, lost)
+            motored_rate = where(c.mode == OPEN, 0.0, cold_rate)
+        p, rate = where(own, p_own, p), where(own, rate_own, 0.0)
+        released, lost = where(own, heat_released, 0.0), where(own, heat_lost, 0.0)
+    return ChamberRates(p, rate, ignition, motored_rate, released, lost, flows)
 
 
 @inline
@@ -237,7 +294,7 @@ def write_chamber(C, side, v, rates, dy):
     dy[N_STATE + HEAT_RELEASED + side] = rates.released
     dy[N_STATE + HEAT_LOST + side] = rates.lost
     dy[N_STATE + GAS_WORK + side] = power
-    dy[N_STATE + PORT_WORK + side] = where(c.mode == OPEN, power, 0.0)
+    dy[N_STATE + PORT_WORK + side] = where(has_own_pressure(C, side), 0.0, power)
 
 
 @inline
@@ -293,9 +350,15 @@ def write_rates(P, E, C, t, y, dy, motored):
     """The same, folded into the caller."""
     left = chamber_rates(P, E, C, LEFT, t, y, motored)
     right = chamber_rates(P, E, C, RIGHT, t, y, motored)
-    rates_of_motion(P, E, t, y, dy, gas_force(C, left, right))
+    force = gas_force(C, left, right)
+    if CRANKCASE_IS_WANTED:
+        force += crankcase_force(P, C, LEFT, y) + crankcase_force(P, C, RIGHT, y)
+    rates_of_motion(P, E, t, y, dy, force)
     write_chamber(C, LEFT, y[V], left, dy)
     write_chamber(C, RIGHT, y[V], right, dy)
+    if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:
+        write_contents(P, C, LEFT, y, left, dy)
+        write_contents(P, C, RIGHT, y, right, dy)
 
 
 @inline
@@ -315,8 +378,8 @@ def bound_phase(P, E, C, side):
 
 
 @inline
-def find_position(P, E, x):
-    """Find the next position at which a force on the translator has a corner."""
+def find_position(P, E, C, x):
+    """Find the next position at which a force on the translator, or a port, has a corner."""
     slack = AT_BREAKPOINT * E.length_scale
     E.x_breakpoint = inf
     if E.direction == 0.0:
@@ -325,22 +388,35 @@ def find_position(P, E, x):
     spring = springs_next_breakpoint(P, beyond, E.direction)
     alternator = alternator_next_breakpoint(P, beyond, E.direction)
     nearest = inf
-    for place in (spring, alternator):
+    left, right = port_breakpoint(P, E, C, LEFT, beyond), port_breakpoint(P, E, C, RIGHT, beyond)
+    for place in (spring, alternator, left, right):
         way = E.direction * (place - x)
         if slack < way < nearest:
             nearest = way
             E.x_breakpoint = place
 
 
+@inline
+def port_breakpoint(P, E, C, side, x):
+    """Next position at which the area of a port is not smooth [m]; infinite if there is none."""
+    c = C[side]
+    if not by_flow(C, side):
+        return E.direction * inf
+    outward = c.sign * E.direction
+    opening = clearance_of(C, side, x) - c.port
+    place = gas_exchange_next_breakpoint(P, side, opening, outward)
+    return c.sign * (place + c.port - c.half_stroke)
+
+
 @compiled
 def refresh(P, E, C, y):
     """Compute the numbers that stay the same until the next event."""
-    find_position(P, E, y[X])
+    find_position(P, E, C, y[X])
     E.per_mass = 1.0 / E.mass
     for side in range(2):
         c = C[side]
         c.per_half_stroke = 1.0 / c.half_stroke
-        if c.mode == OPEN:
+        if not has_own_pressure(C, side):
             continue
         c.ln_volume = log(c.area * c.half_stroke)
         c.ln_mass_gas = log(c.mass * c.gas_constant)
@@ -348,8 +424,8 @@ def refresh(P, E, C, y):
         breakpoint = gas_properties_breakpoint(P, side)
         c.ln_breakpoint = log(breakpoint) if breakpoint > 0.0 else 0.0
         c.beyond_breakpoint = 1.0 if ln_temperature(C, side, y) > c.ln_breakpoint else -1.0
-        gas = gas_at(E, C, side, 0.0, 0.0, 1.0, 1.0)  # of which only what stays the same is used
-        charge = charge_of(E, C, side)
+        gas = gas_at(E, C, side, y, 0.0, 0.0, 1.0, 1.0)  # of which only what stays the same is used
+        charge = charge_of(E, C, side, y)
         heat = heat_transfer_coefficient_constants(P, side, gas, charge)
         c.heat_first, c.heat_second, c.heat_third = heat
         ignition = ignition_rate_constants(P, side, gas, charge)

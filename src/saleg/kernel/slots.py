@@ -103,6 +103,56 @@ def gas_exchange_charge(
     return law.charge(mass, fuel, air, burnt, equivalence_ratio, air_fuel_ratio)
 
 
+def gas_exchange_areas(P: Any, side: int, opening: float) -> tuple[float, float]:
+    """Effective areas of intake and exhaust."""
+    return _chamber(P, side).gas_exchange.areas(opening)
+
+
+def gas_exchange_exhaust(P: Any, side: int) -> tuple[float, float]:
+    """Pressure and temperature beyond the exhaust."""
+    return _chamber(P, side).gas_exchange.exhaust()
+
+
+def gas_exchange_fresh_share(P: Any, side: int, share: float) -> float:
+    """Share of fresh gas in what leaves through the ports."""
+    return _chamber(P, side).gas_exchange.fresh_share(share)
+
+
+def gas_exchange_next_breakpoint(P: Any, side: int, opening: float, direction: float) -> float:
+    """Next opening at which an area is not smooth."""
+    return _chamber(P, side).gas_exchange.next_breakpoint(opening, direction)
+
+
+def leak_area(P: Any, side: int, gas: Gas) -> float:
+    """Effective area of a leak."""
+    return _chamber(P, side).leak.area(gas)
+
+
+def leak_beyond(P: Any, side: int) -> tuple[float, float]:
+    """Pressure and temperature beyond a leak."""
+    return _chamber(P, side).leak.beyond()
+
+
+def supply_volume(P: Any, side: int, displacement: float) -> float:
+    """Volume of the crankcase."""
+    return _chamber(P, side).supply.volume(displacement)
+
+
+def supply_piston_area(P: Any, side: int) -> float:
+    """Area of the piston on the crankcase's side."""
+    return _chamber(P, side).supply.piston_area()
+
+
+def supply_inlet_area(P: Any, side: int, rise: float) -> float:
+    """Effective area of the inlet of the crankcase."""
+    return _chamber(P, side).supply.inlet_area(rise)
+
+
+def wall_temperature_rate(P: Any, side: int, temperature: float, heat: float) -> float:
+    """Rate of the temperature of the wall."""
+    return _chamber(P, side).wall.temperature_rate(temperature, heat)
+
+
 def springs_force(P: Any, motion: Motion) -> float:
     """Force of the springs."""
     return P.springs.force(motion)

@@ -6,7 +6,7 @@ The search for fixed points takes this module and no law, so that it is compiled
 import numpy as np
 
 from saleg.kernel.jit import compiled, inline
-from saleg.kernel.layout import N_ALL, N_PEAKS, N_STATE, X
+from saleg.kernel.layout import N_ALL, N_PEAKS, N_PLAIN, N_STATE, SUPPLIED, X
 
 
 @inline
@@ -18,7 +18,9 @@ def clearance_of(C, side, x):
 @compiled
 def begin_stroke(E, C, y, peaks):
     """Reset the quantities that are counted per stroke."""
-    for n in range(N_STATE, N_ALL):
+    for n in range(N_STATE, N_PLAIN):
+        y[n] = 0.0
+    for n in range(SUPPLIED, N_ALL):
         y[n] = 0.0
     for peak in range(N_PEAKS):
         peaks[peak] = 0.0

@@ -3,11 +3,34 @@
 from math import inf, isfinite
 
 from saleg.kernel.adaptive import defect, take_adaptive_step
+from saleg.kernel.breathing import mass_of
 from saleg.kernel.general import take_general_step
 from saleg.kernel.jit import inline
-from saleg.kernel.layout import CURRENT, IGNITION, MOTORED, THETA, V, X
-from saleg.kernel.needs import CURRENT_IS_WANTED, MOTORED_PRESSURE_IS_WANTED
+from saleg.kernel.layout import (
+    AIR,
+    CRANKCASE_MASS,
+    CRANKCASE_THETA,
+    CURRENT,
+    FUEL,
+    IGNITION,
+    MOTORED,
+    SUPPLIED,
+    THETA,
+    WALL,
+    V,
+    X,
+)
+from saleg.kernel.needs import (
+    CONTENTS_ARE_WANTED,
+    CRANKCASE_IS_WANTED,
+    CURRENT_IS_WANTED,
+    MOTORED_PRESSURE_IS_WANTED,
+    WALL_TEMPERATURE_IS_WANTED,
+)
 from saleg.laws.choice import where
+
+# Share of fuel in a charge below which its error counts as if there were so much.
+FUEL_SHARE = 0.02
 
 
 @inline
@@ -25,11 +48,12 @@ def take_step(P, E, C, O, tableau, t, h, y, k, y_new):
 
 
 @inline
-def error_norm(E, h, y, y_new, k, tolerance):
+def error_norm(E, C, h, y, y_new, k, tolerance):
     """Estimated error of a step of the adaptive pair over the tolerated one; below 1 it is good.
 
     Position is measured by the stroke, velocity by the natural speed, theta (hence pressure)
-    relatively, the ignition integral against the larger of itself and 1.
+    relatively, the ignition integral against the larger of itself and 1, masses in a chamber by
+    all of its gas.
     """
     worst, speed = abs(defect(k, X)) / E.length_scale, abs(defect(k, V)) / E.speed_scale
     worst, total = max(worst, speed), worst + speed  # the total is not finite if any of them is not
@@ -46,4 +70,22 @@ def error_norm(E, h, y, y_new, k, tolerance):
     if CURRENT_IS_WANTED:
         error = abs(defect(k, CURRENT)) / E.current_scale
         worst, total = max(worst, error), total + error
+    if CONTENTS_ARE_WANTED:
+        for n in range(FUEL, WALL):
+            scale = mass_of(C, (n - FUEL) % 2, y_new)
+            if n < AIR:
+                scale = max(y_new[n], FUEL_SHARE * scale)
+            error = abs(defect(k, n)) / scale
+            worst, total = max(worst, error), total + error
+    if WALL_TEMPERATURE_IS_WANTED:
+        for n in range(WALL, CRANKCASE_THETA):
+            error = abs(defect(k, n)) / y[n]
+            worst, total = max(worst, error), total + error
+    if CRANKCASE_IS_WANTED:
+        for n in range(CRANKCASE_THETA, CRANKCASE_MASS):
+            error = abs(defect(k, n))
+            worst, total = max(worst, error), total + error
+        for n in range(CRANKCASE_MASS, SUPPLIED):
+            error = abs(defect(k, n)) / max(y[CRANKCASE_MASS + (n - FUEL) % 2], 1e-300)
+            worst, total = max(worst, error), total + error
     return where(isfinite(total), h * worst / tolerance, inf)

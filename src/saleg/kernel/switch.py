@@ -2,21 +2,34 @@
 
 from math import isfinite, log
 
+from saleg.kernel.breathing import (
+    breathes,
+    by_flow,
+    crankcase_of,
+    has_own_pressure,
+    mass_of,
+    take_contents,
+)
 from saleg.kernel.control import ask, obey
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    AIR,
     ALTERNATOR_IMPULSE,
     ALTERNATOR_WORK,
     ARMED,
     BURNING,
+    BURNT,
     CLOSED,
     COMPILED,
     CORNER,
+    CRANKCASE_MASS,
+    CRANKCASE_WORK,
     DEAD_CENTRE,
     DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
+    ENTHALPY_OUT,
     EVENT_CHARGE_RENEWAL,
     EVENT_DEAD_CENTRE,
     EVENT_END_OF_COMBUSTION,
@@ -27,8 +40,13 @@ from saleg.kernel.layout import (
     EVENT_MOTOR_ON,
     EVENT_PORT_CLOSING,
     EVENT_PORT_OPENING,
+    EXPELLED,
+    EXPELLED_FRESH,
+    EXPELLED_FUEL,
     FAILING,
+    FRESH,
     FRICTION_WORK,
+    FUEL,
     G0,
     GAS_WORK,
     HEAD,
@@ -48,11 +66,14 @@ from saleg.kernel.layout import (
     PORT_WORK,
     RIGHT,
     SPEED_SQUARED,
+    SUPPLIED,
+    SUPPLIED_FUEL,
     THETA,
     UNCONTROLLED,
     V,
     X,
 )
+from saleg.kernel.needs import CONTENTS_ARE_WANTED, CRANKCASE_IS_WANTED
 from saleg.kernel.rhs import charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
@@ -116,9 +137,13 @@ def internal_energy(P, C, side, y):
     """Internal energy of the charge [J]; while the ports are open that of the fresh one."""
     c = C[side]
     T = c.T_closing
-    if c.mode != OPEN:
+    if has_own_pressure(C, side):
         _, T = pressure_and_temperature(C, side, y)
-    return c.mass * gas_properties_internal_energy(P, side, T)
+    energy = mass_of(C, side, y) * gas_properties_internal_energy(P, side, T)
+    if CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0:
+        _, T = crankcase_of(P, C, side, y)
+        energy += y[CRANKCASE_MASS + side] * gas_properties_internal_energy(P, side, T)
+    return energy
 
 
 @compiled
@@ -126,7 +151,7 @@ def ignite(P, E, C, side, y, motored):
     """Start of combustion: the charge burns as far as fuel and air allow (Eq. 53)."""
     c = C[side]
     gas = gas_of(E, C, side, y, motored)
-    c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side))
+    c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side, y))
     c.mode = BURNING
     c.armed = DISARMED
     c.t_ignition = E.t
@@ -134,11 +159,14 @@ def ignite(P, E, C, side, y, motored):
     if c.duration > 0.0:
         E.next_step = min(E.next_step, FIRST_OF_BURN * c.duration)
     c.fuel_to_burn = c.combustion_efficiency * min(c.fuel, c.air / c.air_fuel_ratio)
+    c.mass_lit = mass_of(C, side, y)
     c.ignition_time = E.t
     c.ignition_height = gas.clearance
     if c.duration <= 0.0:
         burn_at_once(P, C, side, y, gas.T)
-        end_combustion(P, E, C, side)
+        burn_contents(P, E, C, side)
+        c.mode = CLOSED
+        put_contents(C, side, y)
 
 
 @compiled
@@ -158,15 +186,30 @@ def burn_at_once(P, C, side, y, T):
     y[N_STATE + HEAT_RELEASED + side] += heat
 
 
-@compiled
-def end_combustion(P, E, C, side):
+@inline
+def burn_contents(P, E, C, side):
     """Turn the fuel burnt, and its air, into burnt gas."""
     c = C[side]
     fuel = burnt_mass(P, C, side, E.t)
     c.fuel -= fuel
     c.air -= c.air_fuel_ratio * fuel
     c.burnt += (1.0 + c.air_fuel_ratio) * fuel
-    c.mode = CLOSED
+
+
+@compiled
+def end_combustion(P, E, C, side):
+    """End a combustion; the masses of a chamber that breathes have followed it all along."""
+    if not breathes(C, side):
+        burn_contents(P, E, C, side)
+    C[side].mode = CLOSED
+
+
+@inline
+def put_contents(C, side, y):
+    """Bring the state up to date with what the record says of a chamber."""
+    if breathes(C, side):
+        c = C[side]
+        y[FUEL + side], y[AIR + side], y[BURNT + side] = c.fuel, c.air, c.burnt
 
 
 @compiled
@@ -174,8 +217,14 @@ def open_ports(P, E, C, side, y):
     """Blow down: pressure and temperature become those of the intake."""
     if C[side].mode == BURNING:
         end_combustion(P, E, C, side)
-    before = internal_energy(P, C, side, y)
     c = C[side]
+    if by_flow(C, side):
+        c.mode = OPEN
+        c.armed = DISARMED
+        y[IGNITION + side] = 0.0
+        y[FRESH + side] = 0.0
+        return
+    before = internal_energy(P, C, side, y)
     c.mode = OPEN
     c.armed = DISARMED
     c.T_closing = c.intake_temperature
@@ -186,6 +235,9 @@ def open_ports(P, E, C, side, y):
 @compiled
 def close_ports(P, E, C, side, y):
     """Compose the fresh charge and begin to compress it."""
+    if by_flow(C, side):
+        trap_charge(P, C, side, y)
+        return
     before = internal_energy(P, C, side, y)
     c = C[side]
     compose_charge(P, C, side, y, c.intake_pressure, c.intake_temperature)
@@ -220,16 +272,34 @@ def compose_charge(P, C, side, y, p, T):
     c.fresh_fuel_energy += fresh * c.lower_heating_value
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
     c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
-    c.equivalence_ratio = fuel * c.air_fuel_ratio / max(air, 1e-300)
+    arm_charge(P, C, side, y, p, T, volume)
+    put_contents(C, side, y)
+    y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
+    y[MOTORED + side] = y[THETA + side]
+
+
+@inline
+def trap_charge(P, C, side, y):
+    """Close the ports on what has flowed in and what is left."""
+    c = C[side]
+    p, T = pressure_and_temperature(C, side, y)
+    c.fresh = y[FRESH + side]
+    arm_charge(P, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
+    y[MOTORED + side] = y[THETA + side]
+
+
+@inline
+def arm_charge(P, C, side, y, p, T, volume):
+    """Take a charge for the one now trapped at a pressure, a temperature and a volume."""
+    c = C[side]
+    c.equivalence_ratio = c.fuel * c.air_fuel_ratio / max(c.air, 1e-300)
     c.p_closing, c.T_closing, c.V_closing = p, T, volume
     c.mode = CLOSED
     c.charge_number += 1.0
-    c.armed = ARMED if fuel > 0.0 else DISARMED
+    c.armed = ARMED if c.fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
     y[IGNITION + side] = 0.0
-    y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
-    y[MOTORED + side] = y[THETA + side]
 
 
 @compiled
@@ -269,14 +339,44 @@ def write_stroke(P, E, C, y, peaks, row):
         row.combustion_duration[side] = c.duration if c.ignition_time >= 0.0 else 0.0
         row.charge_mass[side] = c.mass
         row.internal_energy[side] = internal_energy(P, C, side, y)
-        burnt = burnt_mass(P, C, side, E.t) if c.mode == BURNING else 0.0
+        burning = c.mode == BURNING and not breathes(C, side)
+        burnt = burnt_mass(P, C, side, E.t) if burning else 0.0
         row.fuel_energy[side] = (c.fuel - burnt) * c.lower_heating_value
+        row.wall_temperature[side] = c.wall_temperature
+        if CONTENTS_ARE_WANTED:
+            write_passed(C, side, y, row)
+
+
+@inline
+def write_passed(C, side, y, row):
+    """Write what has passed through a chamber that breathes into the row of a stroke."""
+    c = C[side]
+    if not breathes(C, side):
+        return
+    row.fresh_fuel_energy[side] += y[SUPPLIED_FUEL + side] * c.lower_heating_value
+    row.exhaust_fuel_energy[side] += y[EXPELLED_FUEL + side] * c.lower_heating_value
+    row.exhaust_energy[side] += y[ENTHALPY_OUT + side]
+    row.fresh_mass[side] = c.fresh
+    row.closing_mass[side] = c.p_closing * c.V_closing / (c.gas_constant * c.T_closing)
+    row.closing_temperature[side] = c.T_closing
+    row.supplied_mass[side] = y[SUPPLIED + side]
+    row.expelled_mass[side] = y[EXPELLED + side]
+    row.expelled_fresh[side] = y[EXPELLED_FRESH + side]
+    row.crankcase_work[side] = y[CRANKCASE_WORK + side]
+
+
+@inline
+def supplied_energy(C, side, y):
+    """Lower heating value of the fuel that has flowed into a chamber in this stroke [J]."""
+    return y[SUPPLIED_FUEL + side] * C[side].lower_heating_value
 
 
 @compiled
 def regulate(P, E, C, y):
     """Hand the finished stroke to the laws that act at a dead centre."""
     fuel = C[LEFT].fresh_fuel_energy + C[RIGHT].fresh_fuel_energy
+    if CONTENTS_ARE_WANTED:
+        fuel += supplied_energy(C, LEFT, y) + supplied_energy(C, RIGHT, y)
     squared = y[N_STATE + SPEED_SQUARED]
     length = abs(y[X] - E.x_dead_centre)
     duration = E.t - E.t_dead_centre
@@ -340,7 +440,7 @@ def change_due(P, E, C, side, y):
         return EVENT_CHARGE_RENEWAL
     if misfires(E, C, side):
         lit = c.armed == ARMED
-        if lit and ignition_lights_at_dead_centre(P, side, charge_of(E, C, side)) > 0.0:
+        if lit and ignition_lights_at_dead_centre(P, side, charge_of(E, C, side, y)) > 0.0:
             return EVENT_IGNITION
         return EVENT_MISFIRE
     if c.mode == CLOSED and c.armed > DISARMED and y[IGNITION + side] >= 1.0:
@@ -404,6 +504,7 @@ def change_chambers(P, E, C, O, y, tables):
         for side in range(2):
             kind = change_due(P, E, C, side, y)
             if kind >= 0:
+                take_contents(C, y)
                 record_event(E, C, O, y, kind, side, tables)
                 change_mode(P, E, C, O, side, y, kind)
                 quiet = False
@@ -420,6 +521,8 @@ def switch(P, E, C, O, y, landed, peaks, tables, control):
     Chambers change first, one after the other, then the translator turns. What is due in a chamber
     because it has turned belongs to the stroke that begins and waits for the next call.
     """
+    if landed >= 0:
+        take_contents(C, y)
     changed = change_chambers(P, E, C, O, y, tables) or landed == CORNER
     for side in range(2):
         if C[side].mode == BURNING and E.t >= C[side].t_breakpoint:

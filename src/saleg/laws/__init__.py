@@ -12,6 +12,7 @@ from saleg.laws.alternator import (
 from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
 from saleg.laws.base import (
     Alternator,
+    FlowExchange,
     Friction,
     GasExchange,
     GasProperties,
@@ -19,9 +20,12 @@ from saleg.laws.base import (
     HeatTransfer,
     Ignition,
     Law,
+    Leak,
     Misfires,
     Springs,
+    Supply,
     Validity,
+    Wall,
 )
 from saleg.laws.choice import any_of, where
 from saleg.laws.control.actuators import Actuators
@@ -47,7 +51,7 @@ from saleg.laws.friction import (
     NoFriction,
     ViscousFriction,
 )
-from saleg.laws.gas_exchange import InstantExchange
+from saleg.laws.gas_exchange import InstantExchange, PortFlow
 from saleg.laws.gas_properties import ChangGas, ConstantGamma
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
@@ -68,8 +72,11 @@ from saleg.laws.ignition import (
     SparkAtClearance,
     TabulatedDelay,
 )
+from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
 from saleg.laws.springs import EndStops, LinearSprings, PreloadedSprings, ProgressiveSprings
+from saleg.laws.supply import Crankcase, Plenum
+from saleg.laws.walls import FixedWall, LumpedWall
 
 accept_earlier_names()
 
@@ -93,9 +100,12 @@ __all__ = [
     "ConstantGamma",
     "CosineForce",
     "CoulombViscousFriction",
+    "Crankcase",
     "DoubleWiebe",
     "Drive",
     "EndStops",
+    "FixedWall",
+    "FlowExchange",
     "FluxProfile",
     "ForceMap",
     "Friction",
@@ -117,9 +127,12 @@ __all__ = [
     "InstantRelease",
     "IntakeControl",
     "Law",
+    "Leak",
     "LinearLoad",
     "LinearSprings",
     "LoadControl",
+    "LumpedWall",
+    "MakeUpValve",
     "Misfires",
     "Motion",
     "MotorControl",
@@ -127,8 +140,11 @@ __all__ = [
     "NoFriction",
     "NoFuel",
     "NoHeatTransfer",
+    "NoLeak",
     "NoMisfires",
+    "Plenum",
     "PolytropicLoss",
+    "PortFlow",
     "PowerDemand",
     "PreloadedSprings",
     "ProgressiveSprings",
@@ -137,6 +153,7 @@ __all__ = [
     "RatedFuel",
     "RatedIntake",
     "ResonanceSearch",
+    "RingLeak",
     "ScaledLoad",
     "ScheduledMisfires",
     "Signals",
@@ -148,9 +165,11 @@ __all__ = [
     "SteadyMotor",
     "Stroke",
     "StrokeRegulator",
+    "Supply",
     "TabulatedDelay",
     "Validity",
     "ViscousFriction",
+    "Wall",
     "Wiebe",
     "Woschni",
     "any_of",

@@ -54,6 +54,10 @@ class Law(Quantities):
     mirrors : bool
         Whether its forces are the same in the mirror whatever its numbers; if not, a search for
         steady states finds out.
+    states : tuple of str
+        States of a chamber that the law asks for, by the names in
+        :data:`saleg.kernel.layout.CHAMBER_STATES`: they are integrated then. Without one that asks
+        they cost nothing.
     """
 
     slot: ClassVar[str] = ""
@@ -63,6 +67,7 @@ class Law(Quantities):
     valid_for: ClassVar[tuple[Validity, ...]] = ()
     earlier_names: ClassVar[dict[str, str]] = {}
     mirrors: ClassVar[bool] = False
+    states: ClassVar[tuple[str, ...]] = ()
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -176,10 +181,16 @@ class Misfires(Law):
 
 
 class GasExchange(Law):
-    """What the charge is made of when the ports close."""
+    """Gas exchange of a ported cylinder.
+
+    In an instant: :meth:`charge` says what the charge is made of when the ports close, and while
+    they are open the cylinder stands at the state of its intake. Or by flow: see
+    :class:`FlowExchange`.
+    """
 
     slot = "gas_exchange"
-    compiled = ("charge",)
+    compiled = ("charge", "areas", "exhaust", "fresh_share", "next_breakpoint")
+    optional = ("areas", "exhaust", "fresh_share", "next_breakpoint")
 
     def charge(
         self,
@@ -195,6 +206,110 @@ class GasExchange(Law):
         Returns fuel, air, burnt gas and the fresh fuel among the fuel [kg].
         """
         raise NotImplementedError
+
+    def areas(self, opening: float) -> tuple[float, float]:
+        """Effective areas of intake and exhaust [m^2], discharge coefficients included.
+
+        Parameters
+        ----------
+        opening : float
+            Distance of the crown beyond `port_closing`, away from the head [m].
+        """
+        return 0.0, 0.0
+
+    def exhaust(self) -> tuple[float, float]:
+        """Pressure [Pa] and temperature [K] beyond the exhaust."""
+        return 1e5, 300.0
+
+    def fresh_share(self, share: float) -> float:
+        """Share of fresh gas in what leaves through the ports, given that in the cylinder [-]."""
+        return share
+
+    def next_breakpoint(self, opening: float, direction: float) -> float:
+        """Next opening at which an area is not smooth [m], on the way out (1) or in (-1).
+
+        Infinite if there is none. Steps end there.
+        """
+        return direction * math.inf
+
+
+class FlowExchange(GasExchange):
+    """Gas exchange by flow through ports: the masses in the cylinder are integrated.
+
+    A law of its kind has :meth:`~GasExchange.areas` and :meth:`~GasExchange.exhaust`, and
+    :meth:`~GasExchange.fresh_share` unless the gas mixes perfectly.
+    """
+
+    states = ("contents",)
+
+    def charge(
+        self,
+        mass: float,
+        fuel: float,
+        air: float,
+        burnt: float,
+        equivalence_ratio: float,
+        air_fuel_ratio: float,
+    ) -> tuple[float, float, float, float]:
+        """Fuel, air, burnt gas and fresh fuel [kg]: what flowed in and out is what is there."""
+        return fuel, air, burnt, 0.0
+
+
+class Leak(Law):
+    """Opening between a chamber and a space of constant state: a gap, or a valve."""
+
+    slot = "leak"
+    compiled = ("area", "beyond")
+
+    def area(self, gas: Gas) -> float:
+        """Effective area [m^2], discharge coefficient included."""
+        raise NotImplementedError
+
+    def beyond(self) -> tuple[float, float]:
+        """Pressure [Pa] and temperature [K] beyond; what comes in is air."""
+        raise NotImplementedError
+
+
+class Supply(Law):
+    """What stands before the intake ports of a cylinder.
+
+    The state of the intake, or for a law that asks for the state "crankcase" a space under the
+    piston that draws from the intake and is compressed by it.
+    """
+
+    slot = "supply"
+    compiled = ("volume", "piston_area", "inlet_area")
+    optional = compiled
+
+    def volume(self, displacement: float) -> float:
+        """Volume of the crankcase [m^3] with the piston some way from its midpoint, outward [m]."""
+        return 1.0
+
+    def piston_area(self) -> float:
+        """Area of the piston on the crankcase's side [m^2]."""
+        return 0.0
+
+    def inlet_area(self, rise: float) -> float:
+        """Effective area of the inlet [m^2], given how far it is below the intake's pressure [Pa].
+
+        0 for a valve that is shut.
+        """
+        return 0.0
+
+
+class Wall(Law):
+    """Temperature of the wall of a chamber.
+
+    Constant, or for a law that asks for the state "wall_temperature" integrated.
+    """
+
+    slot = "wall"
+    compiled = ("temperature_rate",)
+    optional = compiled
+
+    def temperature_rate(self, temperature: float, heat: float) -> float:
+        """Rate of the temperature [K/s], given it [K] and the heat from the gas [W]."""
+        return 0.0
 
 
 class Springs(Law):
@@ -270,6 +385,16 @@ class Alternator(Law):
 #: Slots of one chamber and slots of the whole engine, by name.
 CHAMBER_SLOTS: dict[str, type[Law]] = {
     law.slot: law
-    for law in (GasProperties, HeatTransfer, HeatRelease, Ignition, GasExchange, Misfires)
+    for law in (
+        GasProperties,
+        HeatTransfer,
+        HeatRelease,
+        Ignition,
+        GasExchange,
+        Misfires,
+        Leak,
+        Supply,
+        Wall,
+    )
 }
 ENGINE_SLOTS: dict[str, type[Law]] = {law.slot: law for law in (Springs, Friction, Alternator)}

@@ -1,8 +1,8 @@
 """The same engine through ``scipy.integrate.solve_ivp``: an independent check of the integrator.
 
 Laws, starts and results are shared; equations, events, switching, masses and energies are written
-once more, in pressure instead of the integrator's own variables, with no other aim than to be
-plain. See :func:`simulate`.
+once more, in pressure instead of the integrator's own variables (in energy and masses where a
+chamber breathes), with no other aim than to be plain. See :func:`simulate`.
 """
 
 from __future__ import annotations
@@ -189,4 +189,6 @@ def _final_state(running: RunningEngine) -> State:
     E["direction"], E["t_dead_centre"] = running.machine.direction, running.t_dead_centre
     E["length_scale"] = 0.5 * running.engine.maximum_stroke
     E["speed_scale"] = natural_speed(running)
-    return State(E, np.zeros(2, layout.CHAMBER_RECORD), running.y, running.peaks)
+    y = np.zeros(layout.N_ALL)
+    y[: len(running.y)] = running.y
+    return State(E, np.zeros(2, layout.CHAMBER_RECORD), y, running.peaks)

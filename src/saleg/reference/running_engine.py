@@ -13,6 +13,7 @@ import numpy as np
 
 from saleg.engine import CombustionChamber, Cylinder, Engine, SealedCylinder
 from saleg.kernel import layout
+from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, ENERGY, is_held_open
 from saleg.kernel.plain_rhs import (
     INTEGRAL,
     MOTORED_PRESSURE,
@@ -22,9 +23,18 @@ from saleg.kernel.plain_rhs import (
     VELOCITY,
     charge_in,
     gas_in,
+    pressure_in,
     rates,
 )
-from saleg.laws.arguments import Gas, Motion, Stroke
+from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+from saleg.reference.contents import (
+    fill,
+    put_masses,
+    put_state,
+    supplied_energy,
+    take_contents,
+    write_passed,
+)
 from saleg.reference.states import (
     ChamberState,
     EngineState,
@@ -36,6 +46,8 @@ from saleg.simulation.initial_state import ratings
 
 #: Distance from a port at which it counts as reached, over the half stroke [-].
 SLACK = 1e-13
+#: The same for a corner of the area of a port.
+CORNER_SLACK = 1e-9
 #: The same for a breakpoint of the burn rate, over the duration of the combustion [-].
 PHASE_SLACK = 1e-9
 _TOTALS = (
@@ -95,7 +107,8 @@ class RunningEngine:
         """Engine at time zero, as its start law has it."""
         start = engine.start.initial(engine)
         contents = (start.left, start.right)
-        y = np.zeros(QUADRATURES + layout.N_QUADRATURES)
+        has_states = any(chamber.states for chamber in engine.chambers)
+        y = np.zeros(layout.N_ALL if has_states else QUADRATURES + layout.N_QUADRATURES)
         y[POSITION], y[VELOCITY] = start.x, start.v
         y[PRESSURE : PRESSURE + 2] = [held.pressure for held in contents]
         y[MOTORED_PRESSURE : MOTORED_PRESSURE + 2] = y[PRESSURE : PRESSURE + 2]
@@ -108,6 +121,8 @@ class RunningEngine:
         totals = [StrokeTotals(), StrokeTotals()]
         x = start.x if start.at_dead_centre else math.nan
         self = cls(engine, 0.0, y, machine, chambers, totals, x)
+        for side in (0, 1):
+            fill(engine, chambers, y, side)
         self._hold(stroke_before(engine, start, self.piston_area))
         for side, held in enumerate(contents):
             if held.burning and held.fuel > 0.0:
@@ -127,9 +142,18 @@ class RunningEngine:
         rates(self.engine, self.machine, self.chambers, self.t, self.y.tolist(), dy)
         return dy
 
+    def pressure(self, side: int) -> float:
+        """Pressure in a chamber [Pa], now."""
+        return pressure_in(self.engine, self.chambers, side, self.y.tolist())
+
     def gas(self, side: int) -> Gas:
         """Gas in a closed chamber, now."""
-        return gas_in(self.machine, self.chambers, side, self.y.tolist())
+        p = self.pressure(side)
+        return gas_in(self.machine, self.chambers, side, self.y.tolist(), p)
+
+    def charge(self, side: int) -> Charge:
+        """Charge in a chamber, now."""
+        return charge_in(self.machine, self.chambers, side, self.y.tolist())
 
     def clearance(self, side: int) -> float:
         """Clearance between crown and head [m]."""
@@ -143,23 +167,35 @@ class RunningEngine:
             return -math.inf
         return self.clearance(side) - chamber.port_closing
 
+    def next_corner(self, side: int) -> float:
+        """Clearance at which an area of the ports next has a corner [m]; infinite if none has."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        if not c.by_flow or self.machine.direction == 0.0:
+            return math.inf
+        assert isinstance(chamber, Cylinder)
+        outward = 1.0 if self.is_expanding(side) else -1.0
+        beyond = self.beyond_port(side) + outward * CORNER_SLACK * c.half_stroke
+        return c.port + chamber.gas_exchange.next_breakpoint(beyond, outward)
+
     def temperature(self, side: int) -> float:
-        """Temperature [K]; that of the intake while the ports are open."""
+        """Temperature [K]; that of the intake while open ports hold it there."""
         chamber = self.engine.chambers[side]
-        if self.chambers[side].mode == layout.OPEN:
+        if is_held_open(self.chambers, side):
             assert isinstance(chamber, Cylinder)
             return chamber.intake.temperature
         return self.gas(side).T
 
     def internal_energy(self, side: int) -> float:
-        """Internal energy of the charge [J]."""
+        """Internal energy of the charge [J], and of the gas in its crankcase."""
+        if self.chambers[side].breathes:
+            return float(self.y[ENERGY + side] + self.y[CRANKCASE_ENERGY + side])
         law = self.engine.chambers[side].gas_properties  # type: ignore[attr-defined]
         return float(self.chambers[side].mass * law.internal_energy(self.temperature(side)))
 
     def burnt_so_far(self, side: int) -> float:
-        """Fuel burnt since ignition [kg]."""
+        """Fuel burnt since ignition that the masses do not show yet [kg]."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
-        if c.mode != layout.BURNING:
+        if c.mode != layout.BURNING or (c.breathes and c.duration > 0.0):
             return 0.0
         assert isinstance(chamber, CombustionChamber)
         u = min((self.t - c.t_ignition) / c.duration, 1.0) if c.duration > 0.0 else 1.0
@@ -168,13 +204,14 @@ class RunningEngine:
 
     def record(self, kind: int, side: int) -> None:
         """Append a row to the table of events."""
-        x, v, p = (float(self.y[n]) for n in (POSITION, VELOCITY, PRESSURE + side))
-        self.events.append((self.t, kind, side, x, v, p, self.temperature(side)))
+        x, v = float(self.y[POSITION]), float(self.y[VELOCITY])
+        self.events.append((self.t, kind, side, x, v, self.pressure(side), self.temperature(side)))
 
     # Changes of a chamber.
 
     def change_chambers(self) -> None:
         """Carry out all changes that are due, one after the other."""
+        take_contents(self.chambers, self.y)
         for side in (0, 1):
             while self._change(side):
                 pass
@@ -212,8 +249,7 @@ class RunningEngine:
         armed, chamber = self.chambers[side].armed, self.engine.chambers[side]
         if armed == layout.ARMED and self.is_expanding(side):  # a dead centre has been passed
             assert isinstance(chamber, CombustionChamber)
-            charge = charge_in(self.machine, self.chambers, side)
-            return chamber.ignition.lights_at_dead_centre(charge) > 0.0
+            return chamber.ignition.lights_at_dead_centre(self.charge(side)) > 0.0
         return armed > layout.DISARMED and bool(self.y[INTEGRAL + side] >= 1.0)
 
     def _is_closing(self, side: int) -> bool:
@@ -239,12 +275,10 @@ class RunningEngine:
         """Begin to release the heat of what fuel and air can burn."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, CombustionChamber)
-        c.duration = chamber.heat_release.duration(
-            self.gas(side), charge_in(self.machine, self.chambers, side)
-        )
+        c.duration = chamber.heat_release.duration(self.gas(side), self.charge(side))
         burnable = min(c.fuel, c.air / chamber.fuel.air_fuel_ratio)
         c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
-        c.mode, c.armed, c.t_ignition = layout.BURNING, 0.0, self.t
+        c.mode, c.armed, c.t_ignition, c.mass_lit = layout.BURNING, 0.0, self.t, c.mass
         self.totals[side].ignition_time = self.t
         self.totals[side].ignition_height = self.clearance(side)
         self.totals[side].combustion_duration = c.duration
@@ -268,11 +302,14 @@ class RunningEngine:
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, CombustionChamber)
         heat = c.heat * chamber.heat_release.burnt_fraction(1.0)
+        self.y[QUADRATURES + layout.HEAT_RELEASED + side] += heat
+        if c.breathes:
+            self.y[ENERGY + side] += heat
+            return
         energy, T = chamber.gas_properties.internal_energy, self.gas(side).T
         wanted = energy(T) + heat / c.mass
         max_temperature = T + (wanted - energy(T)) / c.gas_constant
         self.y[PRESSURE + side] *= brentq(lambda hot: energy(hot) - wanted, T, max_temperature) / T
-        self.y[QUADRATURES + layout.HEAT_RELEASED + side] += heat
 
     def end_combustion(self, side: int) -> None:
         """Turn fuel and stoichiometric air into burnt gas, as far as they have burnt."""
@@ -282,9 +319,11 @@ class RunningEngine:
         air = chamber.fuel.air_fuel_ratio * fuel
         c.fuel, c.air, c.burnt = c.fuel - fuel, c.air - air, c.burnt + fuel + air
         c.mode = layout.CLOSED
+        if c.breathes:
+            put_masses(c, self.y, side)
 
     def open_ports(self, side: int) -> None:
-        """Pressure and temperature become those of the intake."""
+        """Pressure and temperature become those of the intake, or gas begins to flow."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, Cylinder)
         before = self.internal_energy(side)
@@ -292,13 +331,22 @@ class RunningEngine:
             self.end_combustion(side)
         c.mode, c.armed = layout.OPEN, 0.0
         self.y[INTEGRAL + side] = 0.0
-        self.y[[PRESSURE + side, MOTORED_PRESSURE + side]] = chamber.intake.pressure
+        if c.by_flow:
+            self.y[layout.FRESH + side] = 0.0
+            return
+        put_state(chamber, c, self.y, side, chamber.intake.pressure, chamber.intake.temperature)
         self.totals[side].exhaust_energy += before - self.internal_energy(side)
 
     def close_ports(self, side: int) -> None:
-        """Compose the fresh charge at the state of the intake."""
+        """Compose the fresh charge at the state of the intake, or trap what is there."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, Cylinder)
+        if c.by_flow:
+            gas = self.gas(side)
+            c.fresh = float(self.y[layout.FRESH + side])
+            self.y[MOTORED_PRESSURE + side] = gas.p
+            self._trap(side, gas.p, gas.T)
+            return
         p, T = chamber.intake.pressure, chamber.intake.temperature
         before = self.internal_energy(side)
         c.mass = p * c.area * self.clearance(side) / (c.gas_constant * T)
@@ -314,7 +362,10 @@ class RunningEngine:
         self.renewal_due.discard(side)
         before = self.internal_energy(side)
         p = chamber.pressure * (self.clearance(side) / c.half_stroke) ** -chamber.curve_exponent
-        self._compose(side, p, p * c.area * self.clearance(side) / (c.mass * c.gas_constant))
+        if c.breathes:  # what has leaked is made good
+            c.mass = c.mass_trapped
+        T = p * c.area * self.clearance(side) / (c.mass * c.gas_constant)
+        self._compose(side, p, T)
         self.totals[side].exhaust_energy += before - self.internal_energy(side)
 
     def _compose(self, side: int, p: float, T: float) -> None:
@@ -325,6 +376,17 @@ class RunningEngine:
         c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
             c.mass, c.fuel, c.air, c.burnt, chamber.equivalence_ratio, ratio
         )
+        put_state(chamber, c, self.y, side, p, T)
+        self._trap(side, p, T)
+        exhausted = fuel_before + fresh - c.fuel
+        totals.fresh_fuel_energy += fresh * chamber.fuel.lower_heating_value
+        totals.exhaust_fuel_energy += exhausted * chamber.fuel.lower_heating_value
+
+    def _trap(self, side: int, p: float, T: float) -> None:
+        """Take what stands in a chamber for its charge from now on."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, CombustionChamber)
+        ratio = chamber.fuel.air_fuel_ratio
         c.equivalence_ratio = ratio * c.fuel / c.air if c.fuel > 0.0 else 0.0
         c.p_closing, c.T_closing, c.V_closing = p, T, c.area * self.clearance(side)
         c.number += 1.0
@@ -332,15 +394,12 @@ class RunningEngine:
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:
             c.armed = layout.FAILING
         self.y[INTEGRAL + side] = 0.0
-        self.y[[PRESSURE + side, MOTORED_PRESSURE + side]] = p
-        exhausted = fuel_before + fresh - c.fuel
-        totals.fresh_fuel_energy += fresh * chamber.fuel.lower_heating_value
-        totals.exhaust_fuel_energy += exhausted * chamber.fuel.lower_heating_value
 
     # Dead centres.
 
     def turn(self) -> None:
         """Dead centre: write the row of the stroke, let the regulators act, turn around."""
+        take_contents(self.chambers, self.y)
         if math.isfinite(self.x_dead_centre) and self.t > self.t_dead_centre:
             self.strokes.append(self._stroke_row())
             self._regulate()
@@ -352,7 +411,7 @@ class RunningEngine:
             for side, chamber in enumerate(self.engine.chambers)
             if isinstance(chamber, SealedCylinder) and not self.is_expanding(side)
         }
-        self.y[QUADRATURES:] = 0.0
+        self.y[QUADRATURES : layout.FUEL] = self.y[layout.SUPPLIED :] = 0.0
         self.peaks[:] = 0.0
         self.totals = [StrokeTotals(), StrokeTotals()]
         self.x_dead_centre, self.t_dead_centre = float(self.y[POSITION]), self.t
@@ -361,6 +420,7 @@ class RunningEngine:
     def _regulate(self) -> None:
         """Hand the finished stroke to the laws that act at a dead centre."""
         fuel = sum(totals.fresh_fuel_energy for totals in self.totals)
+        fuel += sum(supplied_energy(c, self.y, side) for side, c in enumerate(self.chambers))
         squared = float(self.y[QUADRATURES + layout.SPEED_SQUARED])
         stroke = Stroke(
             length=abs(float(self.y[POSITION]) - self.x_dead_centre),
@@ -405,9 +465,13 @@ class RunningEngine:
         for side in (0, 1):
             for name, value in vars(self.totals[side]).items():
                 row[name][0, side] = value
-            row["charge_mass"][0, side] = self.chambers[side].mass
+            c = self.chambers[side]
+            row["charge_mass"][0, side] = c.mass
+            row["wall_temperature"][0, side] = c.wall_temperature
             row["internal_energy"][0, side] = self.internal_energy(side)
             row["fuel_energy"][0, side] = self._fuel_energy(side)
+            if c.breathes:
+                write_passed(c, self.y, side, row[0])
         return row
 
     def _fuel_energy(self, side: int) -> float:

@@ -12,6 +12,7 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel import layout
+from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, is_held_open, mass_in
 from saleg.kernel.plain_rhs import (
     ALTERNATOR_CURRENT,
     INTEGRAL,
@@ -19,6 +20,9 @@ from saleg.kernel.plain_rhs import (
     PRESSURE,
     QUADRATURES,
     VELOCITY,
+    gas_in,
+    pressure_in,
+    pressure_rate_in,
     rates,
 )
 from saleg.laws.arguments import Motion
@@ -88,8 +92,9 @@ def plain_rates(engine: Engine) -> Callable[[RunningEngine], Rates]:
 def jitted_rates(engine: Engine) -> Callable[[RunningEngine], Rates]:
     """Compile the same right-hand side, with the laws of the engine put in."""
     from saleg.compiler.compiled_engine import compiled_engine
+    from saleg.compiler.text import REFERENCE
 
-    kernel, P, _ = compiled_engine(engine, modules=("plain_rhs",))
+    kernel, P, _ = compiled_engine(engine, modules=REFERENCE)
 
     def of(running: RunningEngine) -> Rates:
         E = _records(EngineState, [running.machine])
@@ -136,7 +141,20 @@ def scales(running: RunningEngine, speed: float) -> np.ndarray:
     scale[QUADRATURES + layout.ELECTRICAL_SQUARED] = energy**2 / time
     scale[QUADRATURES + layout.ALTERNATOR_IMPULSE] = running.machine.mass * speed
     scale[QUADRATURES + layout.SPEED_SQUARED] = speed**2 * time
+    if len(running.y) > layout.FUEL:
+        for side, c in enumerate(running.chambers):
+            _scale_states(scale, side, c, energy)
     return scale
+
+
+def _scale_states(scale: np.ndarray, side: int, c: ChamberState, energy: float) -> None:
+    """Natural size of the states that the laws of a chamber ask for."""
+    if c.breathes:
+        scale[PRESSURE + side] = energy
+    scale[layout.FUEL + side :: 2] = c.mass_trapped
+    scale[layout.WALL + side] = c.wall_temperature
+    for n in (CRANKCASE_ENERGY, layout.ENTHALPY_OUT, layout.CRANKCASE_WORK):
+        scale[n + side] = energy
 
 
 @dataclass(frozen=True)
@@ -152,7 +170,7 @@ class Event:
     direction : float
         -1 if it falls, 1 if it rises.
     kind : str
-        "dead centre", "port", "ignition" or "head".
+        "dead centre", "port", "corner", "ignition" or "head".
     side : int
     """
 
@@ -185,6 +203,9 @@ def possible_events(running: RunningEngine) -> list[Event]:
         is_open = c.mode == layout.OPEN
         if port is not None and is_open != running.is_expanding(side):
             events.append(Event(_beyond(c, port), -1.0 if is_open else 1.0, "port", side))
+        corner = running.next_corner(side)
+        if math.isfinite(corner):
+            events.append(Event(_beyond(c, corner), direction * c.sign, "corner", side))
         if c.armed > layout.DISARMED:
             events.append(Event(_unlit(side), 1.0, "ignition", side))
         if not is_open and not running.is_expanding(side):
@@ -277,6 +298,9 @@ def land(running: RunningEngine, event: Event) -> None:
         running.y[INTEGRAL + event.side] = 1.0
     elif event.kind == "port":
         running.y[POSITION] -= running.chambers[event.side].sign * running.beyond_port(event.side)
+    elif event.kind == "corner":
+        c = running.chambers[event.side]
+        running.y[POSITION] -= c.sign * event.value(running.y)
 
 
 def watch(running: RunningEngine, solution: Any, derivative: Rates) -> None:
@@ -317,9 +341,12 @@ def watched(running: RunningEngine, y: np.ndarray, dy: np.ndarray) -> np.ndarray
     """Quantities whose greatest values are kept, in the order of the layout."""
     values = np.zeros(layout.N_PEAKS)
     for side, c in enumerate(running.chambers):
-        p, rise = y[PRESSURE + side], dy[PRESSURE + side]
-        T = p * c.area * (c.half_stroke + c.sign * y[POSITION]) / (c.mass * c.gas_constant)
-        if c.mode == layout.OPEN:
+        p = pressure_in(running.engine, running.chambers, side, y)
+        gas = gas_in(running.machine, running.chambers, side, y, p)
+        rise = pressure_rate_in(running.engine, running.chambers, side, gas, y, dy)
+        mass = mass_in(running.chambers, side, y)
+        T = p * c.area * (c.half_stroke + c.sign * y[POSITION]) / (mass * c.gas_constant)
+        if is_held_open(running.chambers, side):
             T = running.temperature(side)
         values[layout.PEAK_PRESSURE + side] = p
         values[layout.PEAK_TEMPERATURE + side] = T

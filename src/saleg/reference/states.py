@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from saleg.engine import Chamber, CombustionChamber, Engine, SealedCylinder
+from saleg.engine import Chamber, CombustionChamber, Cylinder, Engine, SealedCylinder
 from saleg.engine.start import Contents, Initial
 from saleg.kernel import layout
 from saleg.laws.arguments import Stroke
@@ -64,6 +64,15 @@ class ChamberState:
         Breakpoints of the burn rate it lies between, over the duration [-].
     number : float
         How many charges have been composed.
+    breathes, by_flow, crankcase, wall_follows : float
+        1 if its masses are states, if gas flows through its ports, if a crankcase stands before
+        them, if the temperature of its wall is a state; else 0.
+    port, intake_pressure, intake_temperature : float
+        Clearance at the ports [m], state of the intake [Pa, K].
+    equivalence_ratio_wanted, air_fuel_ratio, lower_heating_value : float
+        Of fresh gas and of the fuel [-, -, J/kg].
+    mass_lit, fresh : float
+        Mass of the charge when it was lit, and fresh gas in it when it was trapped [kg].
     """
 
     sign: float
@@ -88,6 +97,23 @@ class ChamberState:
     first_phase: float = 0.0
     last_phase: float = 1.0
     number: float = 0.0
+    breathes: float = 0.0
+    by_flow: float = 0.0
+    crankcase: float = 0.0
+    wall_follows: float = 0.0
+    port: float = math.inf
+    intake_pressure: float = 0.0
+    intake_temperature: float = 0.0
+    equivalence_ratio_wanted: float = 0.0
+    air_fuel_ratio: float = 1.0
+    lower_heating_value: float = 0.0
+    mass_lit: float = 1.0
+    fresh: float = 0.0
+
+    @property
+    def mass_trapped(self) -> float:
+        """Mass of the charge as its ports closed [kg]."""
+        return self.p_closing * self.V_closing / (self.gas_constant * self.T_closing)
 
 
 @dataclass
@@ -120,7 +146,7 @@ def chamber_state(chamber: Chamber, held: Contents, sign: float, x: float) -> Ch
     ratio = 0.0
     if isinstance(chamber, CombustionChamber) and held.fuel > 0.0:
         ratio = chamber.fuel.air_fuel_ratio * held.fuel / held.air
-    return ChamberState(
+    state = ChamberState(
         sign=sign,
         bore=chamber.bore,
         area=area,
@@ -138,6 +164,28 @@ def chamber_state(chamber: Chamber, held: Contents, sign: float, x: float) -> Ch
         mode=layout.OPEN if held.is_open else layout.CLOSED,
         armed=float(held.armed and held.fuel > 0.0),
     )
+    _let_breathe(state, chamber, x)
+    return state
+
+
+def _let_breathe(c: ChamberState, chamber: Chamber, x: float) -> None:
+    """Note which states the laws of a chamber ask for, and what they need."""
+    c.breathes = float("contents" in chamber.states)
+    c.crankcase = float("crankcase" in chamber.states)
+    c.wall_follows = float("wall_temperature" in chamber.states)
+    c.intake_pressure, c.intake_temperature, _ = chamber.reference_state
+    if isinstance(chamber, Cylinder):
+        c.port = chamber.port_closing
+        c.by_flow = float("contents" in chamber.gas_exchange.states)
+    if isinstance(chamber, CombustionChamber):
+        c.equivalence_ratio_wanted = chamber.equivalence_ratio
+        c.air_fuel_ratio = chamber.fuel.air_fuel_ratio
+        c.lower_heating_value = chamber.fuel.lower_heating_value
+    if c.by_flow and c.mode == layout.OPEN:  # filled at the intake's state as far as it is open
+        filled = (c.half_stroke + c.sign * x) / c.port
+        c.mass, c.fuel, c.burnt = c.mass * filled, c.fuel * filled, c.burnt * filled
+    if c.breathes:
+        c.air = c.mass - c.fuel - c.burnt
 
 
 def stroke_before(engine: Engine, start: Initial, piston_area: float) -> Stroke:

@@ -3,5 +3,6 @@
 from saleg.simulation.integration import simulate
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
+from saleg.simulation.scavenging import Scavenging
 
-__all__ = ["EnergyBalance", "Performance", "Run", "simulate"]
+__all__ = ["EnergyBalance", "Performance", "Run", "Scavenging", "simulate"]

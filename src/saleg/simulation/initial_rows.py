@@ -32,6 +32,11 @@ class States(NamedTuple):
     chambers: np.ndarray
     y: np.ndarray
 
+    @classmethod
+    def of(cls, state: State) -> States:
+        """The state of one engine as a row."""
+        return cls(state.engine, state.chambers.reshape(1, 2), state.y.reshape(1, -1))
+
     def some(self, chosen: np.ndarray) -> States:
         """Copies of the states of some rows."""
         return States(self.engine[chosen], self.chambers[chosen], self.y[chosen])

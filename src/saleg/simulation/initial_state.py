@@ -19,6 +19,7 @@ from saleg.kernel import layout
 from saleg.kernel.rhs import gas_of, rates_of_motion, refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
+from saleg.laws.base import Supply
 from saleg.simulation.faulty_law import Fault, asked
 
 if TYPE_CHECKING:
@@ -138,6 +139,9 @@ def initial_numbers(engine: Engine, kernel: Any) -> tuple[Any, list[Any], list[A
     for side, contents in enumerate((start.left, start.right)):
         _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
         _fill_contents(C[side], contents, y, side)
+        supply = getattr(engine.chambers[side], "supply", None)
+        if supply is not None and "crankcase" in supply.states:
+            _fill_crankcase(C[side], supply, y, side)
     _fill_engine(E, engine, start, C)
     kernel.refresh(engine, E, C, y)
     for side, contents in enumerate((start.left, start.right)):
@@ -259,6 +263,9 @@ def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
     c.T_closing = c.intake_temperature = full.temperature
     c.V_closing = c.area * full.clearance
     c.port = full.clearance if isinstance(chamber, Cylinder) else math.inf
+    c.breathes = float("contents" in chamber.states)
+    if isinstance(chamber, Cylinder):
+        c.by_flow = float("contents" in chamber.gas_exchange.states)
     c.air_fuel_ratio = 1.0
     if isinstance(chamber, SealedCylinder):
         c.curve_exponent = chamber.curve_exponent
@@ -279,5 +286,21 @@ def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> Non
     if c.curve_exponent > 0.0:  # its charge is closed where it stands
         c.p_closing, c.V_closing = contents.pressure, c.area * clearance
         c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
+    if c.by_flow and contents.is_open:  # at the state of the intake, as far as the piston is out
+        share = clearance / c.port
+        c.mass, c.fuel, c.air, c.burnt = (part * share for part in (c.mass, c.fuel, c.air, c.burnt))
     theta = log(contents.pressure) + layout.G0 * log(clearance / c.half_stroke)
     y[layout.THETA + side] = y[layout.MOTORED + side] = theta
+    y[layout.WALL + side] = c.wall_temperature
+    if c.breathes:
+        c.air = c.mass - c.fuel - c.burnt  # all of it in a chamber that burns nothing
+        y[layout.FUEL + side], y[layout.AIR + side], y[layout.BURNT + side] = c.fuel, c.air, c.burnt
+
+
+def _fill_crankcase(c: Any, supply: Supply, y: list[Any], side: int) -> None:
+    """Fill a crankcase at the state of the intake, wherever its piston is."""
+    midpoint, volume = supply.volume(0.0), supply.volume(c.sign * y[layout.X])
+    gas_constant, temperature = c.gas_constant, c.intake_temperature
+    theta = log(c.intake_pressure) + layout.G0 * log(volume / midpoint)
+    y[layout.CRANKCASE_THETA + side] = theta
+    y[layout.CRANKCASE_MASS + side] = c.intake_pressure * volume / (gas_constant * temperature)

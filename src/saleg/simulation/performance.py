@@ -203,7 +203,7 @@ def cycle_figures(engine: Engine, strokes: np.ndarray) -> dict[str, Any]:
     high = np.maximum(starts, ends).max(axis=-1)
     burns = [isinstance(chamber, CombustionChamber) for chamber in engine.chambers]
     counted = burns if any(burns) else [True, True]
-    masses = strokes["charge_mass"][..., 1, burns] if any(burns) else np.array([nan])
+    masses = _charges(strokes)[..., burns] if any(burns) else np.array([nan])
     burn = timing(engine, strokes)
     with np.errstate(all="ignore"):
         return {
@@ -228,6 +228,13 @@ def cycle_figures(engine: Engine, strokes: np.ndarray) -> dict[str, Any]:
             "start_of_combustion_position": burn.start_position,
             "burn_centre": burn.centre,
         }
+
+
+def _charges(strokes: np.ndarray) -> np.ndarray:
+    """Mass of the charge on each side; where gas flows through the ports, as they close."""
+    trapped, held = strokes["closing_mass"][..., 1, :], strokes["charge_mass"][..., 1, :]
+    masses: np.ndarray = np.where(trapped > 0.0, trapped, held)
+    return masses
 
 
 def _greatest(peaks: np.ndarray) -> Any:

@@ -13,6 +13,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel.layout import EVENT_NAMES
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
+from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.tables import cycle_table, dead_centre_table, event_table, history_table
 from saleg.status import Status
 
@@ -169,6 +170,14 @@ class Run:
         if start is None or start == 0:
             return None
         return EnergyBalance.between(self.strokes[start - 1], self.strokes[start : start + 2])
+
+    @cached_property
+    def scavenging(self) -> tuple[Scavenging, Scavenging]:
+        """Gas exchange of the left and the right cylinder in the last full cycle.
+
+        NaN for a chamber whose ports let no gas flow, and without a full cycle.
+        """
+        return scavenging_of(self.engine, self.last_cycle_strokes)
 
     @property
     def plot(self) -> Plots:

@@ -8,32 +8,34 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from saleg.compiler import search
 from saleg.compiler.compiled_engine import check_methods, numbers_of_rows
-from saleg.engine import BounceChamber, Engine
+from saleg.engine import Engine
 from saleg.engine.columns import Rows, is_sound
 from saleg.errors import SalegError
 from saleg.kernel import layout
 from saleg.kernel.orbit import NEAR, strokes_per_map
 from saleg.kernel.orbits import Searches
+from saleg.kernel.tuples import Snapshots
 from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
 from saleg.status import Status
 from saleg.steady.lanes import find_each
+from saleg.steady.lines import Lines, lines_among, no_lines
 from saleg.steady.return_map import (
-    LONGEST,
     ReturnMap,
     has_laws_that_mirror,
     is_adiabatic,
     is_symmetric,
+    longest_return,
     repeats_itself,
 )
-from saleg.steady.sealed_gas import rise_of_theta
+from saleg.steady.sealed_gas import rises_of_theta
 from saleg.steady.slow_states import are_near, are_sharp, free_entries
 from saleg.steady.solver import (
     MAX_MAPS,
@@ -85,6 +87,8 @@ class Orbits(NamedTuple):
     half_cycles : ndarray of int, shape (n,)
     evaluations, residual : ndarray, shape (n,)
         As in :class:`saleg.SteadyState`.
+    starts : States
+        At the left dead centres at which the cycles begin.
     """
 
     rows: Rows
@@ -94,11 +98,21 @@ class Orbits(NamedTuple):
     half_cycles: np.ndarray
     evaluations: np.ndarray
     residual: np.ndarray
+    starts: States
 
     def some(self, chosen: np.ndarray) -> Orbits:
         """Some of them."""
-        rest = (part[chosen] for part in self[2:])
-        return Orbits(self.rows.some(chosen), self.mirrored, *rest)
+        strokes, mass, half_cycles, evaluations, residual = (p[chosen] for p in self[2:-1])
+        return Orbits(
+            rows=self.rows.some(chosen),
+            mirrored=self.mirrored,
+            strokes=strokes,
+            mass=mass,
+            half_cycles=half_cycles,
+            evaluations=evaluations,
+            residual=residual,
+            starts=self.starts.some(chosen),
+        )
 
 
 def steady_rows(rows: Rows, rtol: float, effort: Effort, total: int = 1) -> list[Orbits]:
@@ -143,7 +157,7 @@ def _can_be_searched(engine: Engine) -> bool:
         engine.validate()
         engine.check_laws()
         check_methods(engine.laws.values())
-        return repeats_itself(engine)
+        return repeats_itself(engine) and not any(chamber.states for chamber in engine.chambers)
     except SalegError:
         return False
 
@@ -167,6 +181,7 @@ def searched(
     limits: Limits,
     total: int = 1,
     tell: Callable[[States, np.ndarray], None] | None = None,
+    numbers: np.ndarray | None = None,
 ) -> Orbits | None:
     """Search from the first start, and the orbits it has found, if any.
 
@@ -183,6 +198,9 @@ def searched(
         Number of engines in the batch they are a piece of.
     tell : callable, optional
         Writes into the states the search begins with, given whether each row has one.
+    numbers : ndarray, shape (n, k), optional
+        What the engines are made from, by which lines among them are found; their own numbers
+        unless given.
     """
     begin, ready = prepare_rows(rows, _from_first_start)
     if not ready.any():
@@ -190,22 +208,108 @@ def searched(
     rows, begin = rows.some(ready), begin.some(ready)
     if tell is not None:
         tell(begin, ready)
-    states = begin.some(np.arange(rows.count))
-    return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
-    room = _room(rows, states)
-    find_each(return_map, limits.max_maps, RESIDUAL * rtol, room, total)
-    strokes = room.strokes.reshape(-1, 2)
-    good = room.codes == layout.END_OF_TIME
-    good &= room.found["missed"] <= limits.missed * rtol
-    good &= are_near(room, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
-    good &= are_sharp(room.found["slowness"], imbalance(strokes[:, 1], strokes), rtol)
-    _leave_out_changed_entropies(good, rows, begin, states, NEAR * RESIDUAL * rtol)
+    numbers = rows.numbers() if numbers is None else numbers[ready]
+    lines = lines_among(numbers) if _may_follow(rows.engine) else no_lines(rows.count)
+    search = _Search(rows, begin, mirrored, rtol, limits, 0 if lines.any else total)
+    room, good = search.found(lines)
+    if lines.any:
+        search.check(lines, room, good)
     if not good.any():
         return None
-    half_cycles = (room.found["maps"] * strokes_per_map(mirrored)).astype(int) + 2
-    mass, evaluations = states.engine["mass"], states.engine["evaluations"]
-    residual = room.found["missed"]
-    return Orbits(rows, mirrored, strokes, mass, half_cycles, evaluations, residual).some(good)
+    begun = room.starts
+    chambers = begun.chambers.view(layout.CHAMBER_RECORD).reshape(-1, 2)
+    return Orbits(
+        rows=rows,
+        mirrored=mirrored,
+        strokes=room.strokes.reshape(-1, 2),
+        mass=room.engine["mass"],
+        half_cycles=(room.found["maps"] * strokes_per_map(mirrored)).astype(int) + 2,
+        evaluations=room.engine["evaluations"],
+        residual=room.found["missed"],
+        starts=States(begun.engine, chambers, begun.y),
+    ).some(good)
+
+
+def _may_follow(engine: Engine) -> bool:
+    """Whether engines may follow each other along a line.
+
+    What a bounce chamber holds is given, its entropy too: no neighbour may say it.
+    """
+    return not any(chamber.is_sealed for chamber in engine.chambers)
+
+
+class _Search(NamedTuple):
+    """Search for the orbits of some engines.
+
+    Attributes
+    ----------
+    rows : Rows
+    begin : States
+        Where each begins.
+    mirrored, rtol, limits
+        As for :func:`searched`.
+    total : int
+        As there if no engine follows another, else 0: lines are followed one by one.
+    """
+
+    rows: Rows
+    begin: States
+    mirrored: bool
+    rtol: float
+    limits: Limits
+    total: int
+
+    def found(self, lines: Lines) -> tuple[Searches, np.ndarray]:
+        """What was found, and whether it is an orbit."""
+        rows, rtol, mirrored, limits = self.rows, self.rtol, self.mirrored, self.limits
+        states = self.begin.some(np.arange(rows.count))
+        return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
+        room = _room(rows, states, lines)
+        find_each(return_map, limits.max_maps, RESIDUAL * rtol, room, self.total)
+        strokes = room.strokes.reshape(-1, 2)
+        good = room.codes == layout.END_OF_TIME
+        good &= room.found["missed"] <= limits.missed * rtol
+        good &= are_near(room, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
+        good &= are_sharp(room.found["slowness"], imbalance(strokes[:, 1], strokes), rtol)
+        _leave_out_changed_entropies(good, rows, self.begin, states, NEAR * RESIDUAL * rtol)
+        return room, good
+
+    def some(self, chosen: np.ndarray) -> _Search:
+        """The search for some of them."""
+        rest = self[2:]
+        return _Search(self.rows.some(chosen), self.begin.some(chosen), *rest)
+
+    def check(self, lines: Lines, room: Searches, good: np.ndarray) -> None:
+        """Replace what lines have led to and engines would not have come to from their starts.
+
+        At some rows both are compared. Where they differ, or a line has led to no orbit, the rows
+        since the last that agreed are searched for from their own starts.
+        """
+        doubtful = (room.followed & ~good) | lines.checked
+        differs = self._take_from_starts(np.flatnonzero(doubtful), room, good)
+        again = lines.around(differs) & room.followed & ~doubtful
+        self._take_from_starts(np.flatnonzero(again), room, good)
+
+    def _take_from_starts(self, chosen: np.ndarray, room: Searches, good: np.ndarray) -> np.ndarray:
+        """Put what rows come to from their own starts in place; which that changes."""
+        if not len(chosen):
+            return chosen
+        own, own_good = self.some(chosen).found(no_lines(len(chosen)))
+        apart = np.abs(own.image - room.image[chosen]).max(axis=1)
+        apart_modes = own.chambers["mode"] != room.chambers["mode"].reshape(-1, 2)[chosen].ravel()
+        same = apart <= NEAR * RESIDUAL * self.rtol
+        same &= ~apart_modes.reshape(-1, 2).any(axis=1)
+        differs = chosen[(own_good & ~same) | (~own_good & good[chosen])]
+        for name in ("engine", "y", "codes", "found", "followed", "point", "residual", "image"):
+            getattr(room, name)[chosen] = getattr(own, name)
+        for name in ("chambers", "strokes"):
+            pairs = getattr(room, name).reshape(-1, 2)
+            pairs[chosen] = getattr(own, name).reshape(-1, 2)
+        for begun, own_begun in zip(room.starts, own.starts, strict=True):
+            each = begun.reshape(len(good), -1)
+            each[chosen] = own_begun.reshape(len(chosen), -1)
+        good[chosen] = own_good
+        return differs
 
 
 def verdicts(orbits: Orbits, rtol: float) -> tuple[np.ndarray, np.ndarray]:
@@ -222,16 +326,21 @@ def verdicts(orbits: Orbits, rtol: float) -> tuple[np.ndarray, np.ndarray]:
     return np.array(statuses, dtype=object), np.array(messages, dtype=object)
 
 
-def _room(rows: Rows, states: States) -> Searches:
+def _room(rows: Rows, states: States, lines: Lines) -> Searches:
     """Engines and their states as the compiled search takes them, with room for what it finds."""
-    n, E = rows.count, states.engine
+    n = rows.count
+    words = layout.CHAMBER_RECORD.itemsize // 8
     vectors = np.zeros((3, n, layout.N_VECTOR))
     return Searches(
         laws=numbers_of_rows(rows.engine, n),
-        engine=E,
+        engine=states.engine,
         chambers=states.chambers.reshape(2 * n),
         y=states.y,
-        longest=LONGEST * E["length_scale"] / E["speed_scale"],
+        longest=longest_return(states.engine),
+        order=lines.order,
+        before=lines.before,
+        ahead=lines.ahead,
+        followed=np.full(n, False),
         codes=np.zeros(n, np.int64),
         found=np.zeros(n, layout.SEARCH_RECORD),
         spare=np.zeros(1, layout.SEARCH_RECORD),
@@ -239,6 +348,11 @@ def _room(rows: Rows, states: States) -> Searches:
         point=vectors[0],
         residual=vectors[1],
         image=vectors[2],
+        starts=Snapshots(
+            engine=np.zeros(n, layout.ENGINE_RECORD),
+            chambers=np.zeros((2 * n, words), np.int64),
+            y=np.zeros((n, layout.N_ALL)),
+        ),
     )
 
 
@@ -250,13 +364,11 @@ def _leave_out_changed_entropies(
     Which chambers are adiabatic may depend on the numbers of their law.
     """
     for side, chamber in enumerate(rows.engine.chambers):
-        if not isinstance(chamber, BounceChamber):
+        if not chamber.is_sealed:
             continue
-        always = isinstance(chamber.heat_transfer, NoHeatTransfer)
-        for n in np.flatnonzero(good).tolist():
-            one: Any = rows.row(n).chambers[side]
-            if always:
-                rise = rise_of_theta(one.gas_properties, begin.row(n), end.row(n), side)
-                good[n] = abs(rise) <= tolerance
-            else:
-                good[n] = not is_adiabatic(one)
+        if isinstance(chamber.laws["heat_transfer"], NoHeatTransfer):
+            rises = rises_of_theta(rows, begin, end, side, np.flatnonzero(good))
+            good &= np.abs(rises) <= tolerance
+        else:
+            for n in np.flatnonzero(good).tolist():
+                good[n] = not is_adiabatic(rows.row(n).chambers[side])

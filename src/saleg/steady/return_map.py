@@ -18,15 +18,27 @@ from saleg.compiler.compiled_engine import compiled_engine
 from saleg.compiler.kernel import Kernel
 from saleg.engine import BounceChamber, Chamber, Engine
 from saleg.kernel import layout, tableaus
+from saleg.kernel.differences import Differences
 from saleg.kernel.orbit import (
     CYCLE,
     DEPTH,
     FIND,
     IMAGE,
     Z_AMPERES,
+    Z_BURN_PHASE,
     Z_CHAMBERS,
+    Z_CRANKCASE_BURNT,
+    Z_CRANKCASE_MASS,
+    Z_FRESH,
+    Z_INTEGRAL,
+    Z_LN_CRANKCASE,
+    Z_LN_DURATION,
+    Z_LN_MASS_MOVING,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
+    Z_RATIO,
+    Z_TO_BURN,
+    Z_WALL,
     mirror,
     read_vector,
     strokes_per_map,
@@ -38,6 +50,7 @@ from saleg.laws import NoHeatTransfer, NoMisfires
 from saleg.laws.arguments import Charge, Gas, Motion
 from saleg.laws.base import Alternator, Law
 from saleg.simulation.course import STEPS_PER_CALL, options_record
+from saleg.simulation.initial_rows import States
 from saleg.simulation.initial_state import State
 from saleg.simulation.kernel_arguments import arguments_of
 from saleg.simulation.settings import Detail, Settings
@@ -66,6 +79,12 @@ TIMELESS = frozenset(Motion._fields) - {"t"}
 FARTHEST = 0.5
 #: Difference of a central difference, over the numbers of order one in a vector.
 DIFFERENCE = 1e-5
+#: Entries of the vector, per side, for the states that laws ask for; masses have entries anyway.
+ENTRIES_OF_STATES = {
+    "contents": (Z_FRESH,),
+    "wall_temperature": (Z_WALL,),
+    "crankcase": (Z_LN_CRANKCASE, Z_CRANKCASE_MASS, Z_CRANKCASE_BURNT),
+}
 
 
 class NoReturn(Exception):
@@ -150,11 +169,10 @@ class ReturnMap:
             rtol=rtol,
             motored_pressure=engine.needs_motored_pressure,
         )
-        E = state.engine[0]
         options = options_record(settings, math.inf, Detail(peaks=0))
         options["events"] = 0
         options["max_steps"] = most_steps
-        options["longest"] = LONGEST * E["length_scale"] / E["speed_scale"]
+        options["longest"] = longest_return(state.engine)
         strokes = np.zeros(4, layout.STROKE_RECORD)
         tables = Tables(
             strokes=strokes,
@@ -272,23 +290,75 @@ class ReturnMap:
         write_vector(*state.records, state.y, z)
         return z
 
-    def jacobian(self, start: State, z: np.ndarray) -> np.ndarray:
-        """Derivative of the map at a vector, by central differences.
+    def jacobian(self, start: State, z: np.ndarray, by: float = DIFFERENCE) -> np.ndarray:
+        """Derivative of the map at a vector, by central differences, the rest as in `start`.
 
-        Entries that stay the same whatever is done to them (those of an open chamber) cost
-        nothing but their own two maps.
+        Raises
+        ------
+        NoReturn
+            If a vector near by has no image.
         """
-        matrix = np.zeros((len(z), len(z)))
-        kept = constant_entries(self.engine)
-        for n in range(len(z)):
-            if n in kept:
-                continue
-            ahead, behind = z.copy(), z.copy()
-            ahead[n] += DIFFERENCE
-            behind[n] -= DIFFERENCE
-            difference = self.image(start, ahead) - self.image(start, behind)
-            matrix[:, n] = difference / (2.0 * DIFFERENCE)
+        differences = differences_at(self.engine, States.of(start), by)
+        differences.points[0] = z
+        code = self.kernel.call("find_jacobian", self.mapping, iterates_from(), differences)
+        if code != layout.END_OF_TIME:
+            raise NoReturn(int(code))
+        matrix: np.ndarray = differences.matrices[0]
         return matrix
+
+    def jacobians(self, laws: np.ndarray, differences: Differences) -> None:
+        """Differentiate the maps of many engines, whose laws have these numbers."""
+        self.kernel.call("find_jacobians", self.mapping, iterates_from(), laws, differences)
+
+
+def differences_at(engine: Engine, starts: States, by: float) -> Differences:
+    """Room for the derivatives of return maps at some states.
+
+    Parameters
+    ----------
+    engine : Engine
+        One of them; all have the same laws.
+    starts : States
+    by : float
+        Difference on either side.
+    """
+    count = len(starts.y)
+    points = np.zeros((count, layout.N_VECTOR))
+    E, C = starts.engine.view(np.recarray), starts.chambers.view(np.recarray)
+    for n in range(count):
+        write_vector(E[n], C[n], starts.y[n], points[n])
+    return Differences(
+        engine=starts.engine,
+        chambers=starts.chambers.reshape(2 * count),
+        y=starts.y,
+        longest=longest_return(starts.engine),
+        points=points,
+        moved=_moved_entries(engine, starts),
+        by=by,
+        matrices=np.zeros((count, layout.N_VECTOR, layout.N_VECTOR)),
+        codes=np.zeros(count, np.int64),
+    )
+
+
+def longest_return(engines: np.ndarray) -> np.ndarray:
+    """Longest time to the next return of each engine [s]."""
+    longest: np.ndarray = LONGEST * engines["length_scale"] / engines["speed_scale"]
+    return longest
+
+
+def _moved_entries(engine: Engine, starts: States) -> np.ndarray:
+    """Whether each entry of the vector can make a difference; those of an open chamber do not."""
+    moved = np.full((len(starts.y), layout.N_VECTOR), True)
+    moved[:, sorted(constant_entries(engine))] = False
+    moved[:, Z_LN_MASS_MOVING] &= starts.engine["mass_fixed"] > 0.0
+    for side, mode in enumerate(starts.chambers["mode"].T):
+        first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
+        by_flow = starts.chambers["by_flow"][:, side] > 0.0
+        for entry in (Z_LN_PRESSURE, Z_INTEGRAL, Z_LN_MOTORED):
+            moved[:, first + entry] &= (mode != layout.OPEN) | by_flow
+        for entry in (Z_BURN_PHASE, Z_LN_DURATION, Z_TO_BURN):
+            moved[:, first + entry] &= mode == layout.BURNING
+    return moved
 
 
 def iterates_from(point: np.ndarray | None = None) -> Iterates:
@@ -313,12 +383,25 @@ def constant_entries(engine: Engine) -> set[int]:
         kept.add(Z_AMPERES)
     for side, chamber in enumerate(engine.chambers):
         first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
-        if isinstance(chamber, BounceChamber):
+        if chamber.is_sealed:
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
-            kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED}
+            kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED, first + Z_WALL}
+        elif isinstance(chamber, BounceChamber):  # gas flows, but no charge is composed
+            kept |= {first + Z_INTEGRAL, first + Z_RATIO}
         if not engine.needs_motored_pressure:
             kept.add(first + Z_LN_MOTORED)
-    return kept
+    return kept | unused_entries(engine)
+
+
+def unused_entries(engine: Engine) -> set[int]:
+    """Entries of the vector for states of the chambers that none of their laws asks for."""
+    return {
+        Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
+        for side, chamber in enumerate(engine.chambers)
+        for name, entries in ENTRIES_OF_STATES.items()
+        if name not in chamber.states
+        for n in entries
+    }
 
 
 def conserved_entries(engine: Engine) -> set[int]:
@@ -332,16 +415,16 @@ def sealed_entries(engine: Engine, wanted: Sequence[bool] = (True, True)) -> set
     return {
         Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
         for side, chamber in enumerate(engine.chambers)
-        if wanted[side] and isinstance(chamber, BounceChamber)
+        if wanted[side] and chamber.is_sealed
         for n in entries
     }
 
 
 def is_adiabatic(chamber: Chamber) -> bool:
     """Whether a chamber is sealed and without heat transfer, so that it keeps its entropy."""
-    if not isinstance(chamber, BounceChamber):
+    if not chamber.is_sealed:
         return False
-    law = chamber.heat_transfer
+    law = chamber.heat_transfer  # type: ignore[attr-defined]
     return isinstance(law, NoHeatTransfer) or law.coefficient(PROBE_GAS, PROBE_CHARGE) == 0.0
 
 

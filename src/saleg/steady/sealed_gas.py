@@ -7,14 +7,20 @@ lost. Every amount of them has an orbit of its own; the one meant is that of the
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
-from saleg.engine import BounceChamber
+from saleg.columns import by_branch, column, exp, log
+from saleg.compiler.plain import on_columns
+from saleg.engine.columns import Rows
 from saleg.kernel import layout
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.orbit import Z_CHAMBERS, Z_LN_MOTORED, Z_LN_PRESSURE, read_vector
 from saleg.laws.base import GasProperties
+from saleg.simulation.initial_rows import States
 from saleg.simulation.initial_state import State
 from saleg.steady.return_map import DIFFERENCE, ReturnMap, constant_entries, is_adiabatic
 
@@ -34,7 +40,7 @@ def with_sealed_charges(return_map: ReturnMap, given: State, z: np.ndarray) -> n
     """
     filled, known = z.copy(), return_map.vector(given)
     for side, chamber in enumerate(return_map.engine.chambers):
-        if isinstance(chamber, BounceChamber):
+        if chamber.is_sealed:
             first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
             sealed = {first + n for n in range(layout.VECTOR_PER_SIDE)}
             entries = sorted(sealed - {first + Z_LN_PRESSURE, first + Z_LN_MOTORED})
@@ -87,26 +93,61 @@ def missing_entropy_rates(
 
 def rise_of_theta(gas: GasProperties, before: State, after: State, side: int) -> float:
     """Rise of theta in a sealed chamber from one state to another that is due to entropy [-]."""
-    ends = state_of_gas(before, side), state_of_gas(after, side)
-    return (gas.gamma(ends[1][0]) - 1.0) * entropy_rise(gas, *ends)
+    ends = [
+        _gas_in(state.records[1], side, state.y, pressure_and_temperature)
+        for state in (before, after)
+    ]
+    return float(_rise(gas, *ends))
 
 
-def state_of_gas(state: State, side: int) -> tuple[float, float]:
+def rises_of_theta(
+    rows: Rows, before: States, after: States, side: int, chosen: np.ndarray
+) -> np.ndarray:
+    """The same of some rows of many engines; NaN for the others."""
+    rises = np.full(rows.count, math.nan)
+    of_one: Any = rows.engine.chambers[side]
+    if type(of_one.gas_properties).__module__.startswith("saleg."):  # it calculates with columns
+        inside = on_columns().pressure_and_temperature
+
+        def rise(lot: np.ndarray) -> Any:
+            chamber: Any = rows.some(lot).engine.chambers[side]
+            ends = [_gas_in(*_columns(states, lot, side), inside) for states in (before, after)]
+            return _rise(chamber.gas_properties, *ends)
+
+        for lot, values in by_branch(rise, chosen):
+            rises[lot] = math.nan if values is None else values
+    for n in chosen[np.isnan(rises[chosen])].tolist():
+        one: Any = rows.row(n).chambers[side]
+        rises[n] = rise_of_theta(one.gas_properties, before.row(n), after.row(n), side)
+    return rises
+
+
+def _columns(states: States, lot: np.ndarray, side: int) -> tuple[Any, int, Any]:
+    """Chambers, side and state vector of some rows, their numbers columns."""
+    chambers = states.chambers[lot, side]
+    names = [name for name in chambers.dtype.names or () if name != "mode"]
+    c = SimpleNamespace(**{name: column(chambers[name]) for name in names})
+    c.mode = layout.CLOSED  # no sealed chamber is open
+    return {side: c}, side, [column(values) for values in states.y[lot].T]
+
+
+def _gas_in(C: Any, side: int, y: Any, inside: Callable[..., Any]) -> tuple[Any, Any]:
     """Temperature [K] and volume [m^3] of the gas in a closed chamber."""
-    _, C = state.records
-    p, T = pressure_and_temperature(C, side, state.y)
-    return float(T), float(C[side].mass * C[side].gas_constant * T / p)
+    p, T = inside(C, side, y)
+    return T, C[side].mass * C[side].gas_constant * T / p
 
 
-def entropy_rise(
-    gas: GasProperties, before: tuple[float, float], after: tuple[float, float]
-) -> float:
+def _rise(gas: GasProperties, before: tuple[Any, Any], after: tuple[Any, Any]) -> Any:
+    return (gas.gamma(after[0]) - 1.0) * entropy_rise(gas, before, after)
+
+
+def entropy_rise(gas: GasProperties, before: tuple[Any, Any], after: tuple[Any, Any]) -> Any:
     """Rise of the entropy of a charge from one temperature and volume to another, over m R [-]."""
     (cold, small), (hot, large) = before, after
     nodes, weights = np.polynomial.legendre.leggauss(16)
-    middle, half = 0.5 * math.log(hot * cold), 0.5 * math.log(hot / cold)
+    middle, half = 0.5 * log(hot * cold), 0.5 * log(hot / cold)
     heat = sum(
-        weight / (gas.gamma(math.exp(middle + half * node)) - 1.0)
+        weight / (gas.gamma(exp(middle + half * node)) - 1.0)
         for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True)
     )
-    return half * heat + math.log(large / small)
+    return half * heat + log(large / small)

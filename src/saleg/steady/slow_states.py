@@ -16,7 +16,14 @@ from saleg.kernel import layout
 from saleg.kernel.orbit import NEAR
 from saleg.simulation.initial_state import State
 from saleg.simulation.outcome import imbalance
-from saleg.steady.return_map import NoReturn, ReturnMap, Search, conserved_entries, is_adiabatic
+from saleg.steady.return_map import (
+    NoReturn,
+    ReturnMap,
+    Search,
+    conserved_entries,
+    is_adiabatic,
+    unused_entries,
+)
 from saleg.steady.sealed_gas import rise_of_theta
 from saleg.steady.stability import FINE
 
@@ -32,6 +39,8 @@ FINE_STEPS = 3000
 SLOWEST = 30.0
 #: Imbalance of a cycle's energy, over its largest term, from which its steps are too coarse.
 COARSE = 1e-6
+#: Residual that may be nothing but rounding, and says nothing of how far there is to go.
+ROUNDING = 1e-13
 #: Factor on the tolerance of an orbit that is found anew with finer steps, and the finest there is.
 FINER = 1e-2
 FINEST = 1e-9
@@ -121,12 +130,14 @@ def are_near(vectors: Any, mirrored: bool, free: list[int], distance: float) -> 
     first, second = vectors.residual, vectors.image - vectors.point
     usual, share = (2.0, 1.5) if mirrored else (1.0, 1.0)
     far = share * np.abs(first * second) > distance * np.abs(usual * first - second)
+    far &= np.abs(second) > ROUNDING
     return ~far[..., free].any(axis=-1)
 
 
 def free_entries(engine: Engine) -> list[int]:
     """Entries of the vector that an orbit decides about: all but entropies that nothing changes."""
-    return sorted(set(range(layout.N_VECTOR)) - conserved_entries(engine))
+    fixed = conserved_entries(engine) | unused_entries(engine)
+    return sorted(set(range(layout.N_VECTOR)) - fixed)
 
 
 def newton_step(return_map: ReturnMap) -> np.ndarray | None:

@@ -34,6 +34,7 @@ from saleg.simulation.outcome import (
 )
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
+from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
@@ -49,6 +50,9 @@ DEFAULT_TOLERANCE = 1e-6
 MAX_MAPS = 60
 #: Residual of the map a steady state may have, over the tolerance of the integrator.
 RESIDUAL = 1.0
+#: Tolerance of the steps of an engine that breathes, over that of the map, and the least there is.
+FINER_WITH_CORNERS = 1e-3
+FINEST_WITH_CORNERS = 1e-12
 #: Residual of the verifying cycle beyond which a fixed point does not count, over the tolerance:
 #: an unstable one grows away from itself.
 MAX_MISSED = 100.0
@@ -153,6 +157,11 @@ class SteadyState:
             return Performance.of_nothing(self.engine)
         history = None if self.orbit is None else self.orbit.history_rows
         return Performance.of_cycle(self.engine, self.strokes, self.strokes, history)
+
+    @cached_property
+    def scavenging(self) -> tuple[Scavenging, Scavenging]:
+        """Gas exchange of the left and the right cylinder, as of a run."""
+        return scavenging_of(self.engine, self.strokes if len(self.strokes) else None)
 
     @property
     def plot(self) -> Plots:
@@ -359,7 +368,8 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
     for start, mirrored in itertools.product(starts(engine), ways):
         state = prepare(replace(engine, start=start))
         most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
-        return_map = ReturnMap.of(engine, state, rtol, mirrored, most_steps)
+        steps = step_tolerance(engine, rtol)
+        return_map = ReturnMap.of(engine, state, steps, mirrored, most_steps)
         found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick)
         cycled = found.code == layout.END_OF_TIME
         spent += strokes
@@ -370,17 +380,28 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
             continue
         return_map.begin_on_the_left()
         if not is_sharp(return_map, found, rtol):
-            sharper = return_map.finer(finer(rtol))
+            steps = step_tolerance(engine, finer(rtol))
+            sharper = return_map.finer(steps)
             again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
             spent += strokes
             evaluations += sharper.evaluations - return_map.evaluations
             if not converged(again, finer(rtol)):
                 continue
-            return_map, found, rtol = sharper, again, finer(rtol)
-        return result_of(return_map, spent, evaluations, found.missed, "fixed point", rtol)
+            return_map, found = sharper, again
+        return result_of(return_map, spent, evaluations, found.missed, "fixed point", steps)
     if quick:
         return not_found(engine, spent, evaluations, "no orbit from the standard starts")
     return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
+
+
+def step_tolerance(engine: Engine, rtol: float) -> float:
+    """Tolerance of the steps of a return map.
+
+    Valves that lift and flows that turn are corners at which no step ends: the image scatters by
+    some hundred times the tolerance where an engine breathes.
+    """
+    breathes = any(chamber.states for chamber in engine.chambers)
+    return max(FINER_WITH_CORNERS * rtol, FINEST_WITH_CORNERS) if breathes else rtol
 
 
 def starts(engine: Engine) -> Iterator[Start]:

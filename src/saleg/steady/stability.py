@@ -15,6 +15,9 @@ from saleg.steady.return_map import NoReturn, ReturnMap, sealed_entries
 
 #: Tolerance of the integrator for differences of the map, which magnify its error.
 FINE = 1e-11
+#: The same for multipliers, and the difference on either side: they are good to some 1e-6.
+TOLERANCE = 1e-10
+DIFFERENCE = 3e-5
 #: Distance from one of a multiplier of what is conserved, above the noise of the differences.
 CONSERVED = 1e-5
 #: Multipliers of the map below this are noise.
@@ -80,10 +83,23 @@ def stability(replay: Replay, mirrored: bool, period: float) -> Stability:
     -------
     Stability
     """
+    start = replay.start
+    return_map = ReturnMap.of(replay.engine, start.copy(), TOLERANCE, mirrored)
+    jacobian: np.ndarray | None
     try:
-        return judged(map_multipliers(replay, mirrored), mirrored, period)
+        jacobian = return_map.jacobian(start, return_map.vector(start), DIFFERENCE)
     except NoReturn:
+        jacobian = None
+    return stability_of(replay.engine, jacobian, mirrored, period)
+
+
+def stability_of(
+    engine: Engine, jacobian: np.ndarray | None, mirrored: bool, period: float
+) -> Stability:
+    """Stability of a steady state by the derivative of its return map; None if it has none."""
+    if jacobian is None:
         return Stability(np.array([complex(math.inf)]), "no return", math.inf, 0.0)
+    return judged(own_multipliers(engine, jacobian), mirrored, period)
 
 
 def describe(found: Stability) -> str:
@@ -96,16 +112,10 @@ def describe(found: Stability) -> str:
     return "\n".join(lines)
 
 
-def map_multipliers(replay: Replay, mirrored: bool) -> np.ndarray:
-    """Multipliers of the return map itself, the largest first [-]."""
-    start = replay.start
-    return_map = ReturnMap.of(replay.engine, start.copy(), FINE, mirrored)
-    return own_multipliers(replay.engine, return_map.jacobian(start, return_map.vector(start)))
-
-
 def own_multipliers(engine: Engine, jacobian: np.ndarray) -> np.ndarray:
     """Eigenvalues of the derivative of a return map, the largest first; none of what is kept."""
-    values = np.linalg.eigvals(jacobian)
+    matters = jacobian.any(axis=0)  # the others have eigenvalues of zero
+    values = np.linalg.eigvals(jacobian[np.ix_(matters, matters)])
     # The entropy that a sealed chamber keeps for ever is no instability: a multiplier of one each.
     for _ in sealed_entries(engine):
         nearest = np.argmin(np.abs(values - 1.0))

@@ -305,6 +305,8 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
     if delay < 0 or delay != int(delay):
         raise SettingsError(f"delay = {shown(delay)}: must be a number of whole steps")
     check_engine(engine)
+    if any(chamber.states for chamber in engine.chambers):
+        raise SettingsError("delayed: only for chambers that own no states beside pressure")
     (kernel, P, control), state = compiled_engine(engine, modules=DELAYED), prepare(engine)
     records = Records(False, None)
     options = options_record(Settings(duration, step=step), duration)
@@ -345,8 +347,8 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
 
 #: Modules of the kernel the emulation is composed of.
 DELAYED = (
-    *("needs", "rhs", "general", "adaptive", "step", "events", "peaks", "control", "switch"),
-    "delayed",
+    *("needs", "flow", "breathing", "rhs", "general", "adaptive", "step", "events", "peaks"),
+    *("control", "switch", "delayed"),
 )
 
 

@@ -63,8 +63,9 @@ def run(
     workers : int, optional
         How many work at once; as many as there are processors unless given.
     chunk : int, optional
-        Points sent to a worker at a time; 32 to 128 unless given, so that no worker waits, and 32
-        with a folder or warm starts.
+        Points sent to a worker at a time; 32 to 256 unless given, an eighth of them if that is
+        between, and 32 with a folder or warm starts. Where points stand along lines, the last
+        digits depend on it, within the tolerance.
     rtol : float
         Tolerance of the integrator [-].
     multipliers : bool

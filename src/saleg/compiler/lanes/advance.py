@@ -24,7 +24,6 @@ from saleg.kernel.layout import (
     GOES_ON,
     LEFT,
     MAX_STEPS,
-    N_ALL,
     N_EVENTS,
     N_PEAKS,
     RIGHT,
@@ -32,6 +31,7 @@ from saleg.kernel.layout import (
     TOO_MANY_STEPS,
     V,
 )
+from saleg.kernel.needs import N_WANTED
 from saleg.kernel.peaks import is_costly, is_passed, may_peak, watched
 from saleg.kernel.run_plainly import run_at
 from saleg.kernel.step import error_norm
@@ -93,7 +93,7 @@ def move(E, S, plain, t, y, y_new, k):
     h, dy, dy_new = S.h, k[0], k[STAGES]
     E.jerk = where(plain, where(h > 0.0, (dy_new[V] - dy[V]) / h, 0.0), E.jerk)
     E.t = where(plain, t, E.t)
-    for n in range(N_ALL):
+    for n in range(N_WANTED):
         y[n] = where(plain, y_new[n], y[n])
         dy[n] = where(plain, dy_new[n], dy[n])
     S.moved = where(plain, 1.0, 0.0)
@@ -106,7 +106,7 @@ def judge(E, C, O, S, y, y_new, k):
     Returns the lanes, as bits, in which something happens, then those that cannot go on.
     """
     h, busy, rejected = S.h, S.busy > 0.0, S.rejected > 0.0
-    error = error_norm(E, h, y, y_new, k, O.tolerance)
+    error = error_norm(E, C, h, y, y_new, k, O.tolerance)
     sound = is_sound(C, y_new)
     good = busy & sound & (error <= 1.0) & (h >= 0.0)
     E.steps += where(busy, 1.0, 0.0)
@@ -154,8 +154,8 @@ def put_in(group, lane):
         put(rows.step, lane, WIDTH, flat.step[lane, :UNWATCHED])
     put(rows.engine, lane, WIDTH, flat.engine[lane, :N_STEPPED])
     put(rows.chambers, lane, WIDTH, flat.chambers[lane])
-    put(rows.y, lane, WIDTH, runs.y[lane])
-    put(rows.rates, lane, WIDTH, runs.scratch.rates[lane, 0])
+    put(rows.y, lane, WIDTH, runs.y[lane, :N_WANTED])
+    put(rows.rates, lane, WIDTH, runs.scratch.rates[lane, 0, :N_WANTED])
 
 
 @inline
@@ -165,11 +165,11 @@ def take_out(group, lane):
     step, trail = group.step[lane, 0], runs.scratch.spare.trail[lane]
     take(rows.step, lane, WIDTH, flat.step[lane, :UNWATCHED])
     take(rows.engine, lane, WIDTH, flat.engine[lane, :N_STEPPED])
-    take(rows.y, lane, WIDTH, runs.y[lane])
-    take(rows.y_new, lane, WIDTH, runs.scratch.y_new[lane])
-    rates = runs.scratch.rates[lane]
+    take(rows.y, lane, WIDTH, runs.y[lane, :N_WANTED])
+    take(rows.y_new, lane, WIDTH, runs.scratch.y_new[lane, :N_WANTED])
+    rates = runs.scratch.rates[lane, :, :N_WANTED]
     take(rows.rates, lane, WIDTH, rates[0])
-    take(rows.rates[STAGES * N_ALL * WIDTH :], lane, WIDTH, rates[STAGES])
+    take(rows.rates[STAGES * N_WANTED * WIDTH :], lane, WIDTH, rates[STAGES])
     if step.watched > 0.0:
         take(rows.step, lane, WIDTH, flat.step[lane])
         for n in range(N_PEAKS + 1):
@@ -237,8 +237,8 @@ def advance(group):
     runs, rows = group.runs, group.rows
     P, E = records_of(rows.laws, group.law, WIDTH), records_of(rows.engine, runs.engine, WIDTH)
     C, S = rows_of(rows.chambers, runs.chambers, 2, WIDTH), records_of(rows.step, group.step, WIDTH)
-    y, y_new = numbers_of(rows.y, N_ALL, WIDTH), numbers_of(rows.y_new, N_ALL, WIDTH)
-    k = tables_of(rows.rates, N_RATES, N_ALL, WIDTH)
+    y, y_new = numbers_of(rows.y, N_WANTED, WIDTH), numbers_of(rows.y_new, N_WANTED, WIDTH)
+    k = tables_of(rows.rates, N_RATES, N_WANTED, WIDTH)
     O = runs.options[0, 0]
     busy = 0
     for lane in range(WIDTH):

@@ -18,11 +18,10 @@ from numba import njit, types
 from numba.core import cgutils
 from numba.extending import intrinsic, overload
 
-from saleg.compiler.lanes.values import DOUBLE, INDEX, WORD, Floats, call_llvm, constant
+from saleg.compiler.lanes.values import DOUBLE, INDEX, OPTIONS, WORD, Floats, call_llvm, constant
 from saleg.compiler.lanes.values import _any_lane as any_lane
 from saleg.compiler.lanes.values import _select as select
 
-OPTIONS: dict[str, Any] = {"forceinline": True, "error_model": "numpy", "_nrt": False}
 inline = njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
 
 #: Added to a number below 2^51 and taken away again it rounds to a whole number; 1.5 * 2^52.

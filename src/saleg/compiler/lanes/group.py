@@ -9,7 +9,7 @@ import numpy as np
 from saleg.compiler.kernel import Kernel
 from saleg.kernel import layout
 from saleg.kernel.lanes.group import STEP_RECORD, Flat, Group, Rows
-from saleg.kernel.tuples import Integration, Scratch, Tables, Words
+from saleg.kernel.tuples import Integration, Scratch, Snapshots, Tables, Words
 
 
 def group_of(run: Integration, address: int, width: int) -> Group:
@@ -32,7 +32,7 @@ def group_of(run: Integration, address: int, width: int) -> Group:
     flat = Flat(*(_as_numbers(part) for part in (runs.laws, runs.engine, runs.chambers, step)))
     stages = len(run.tableau.b)
     records = [part.shape[1] for part in flat[:3]]
-    vectors = [layout.N_ALL, layout.N_ALL, (stages + 1) * layout.N_ALL]
+    vectors = [count * layout.N_PLAIN for count in (1, 1, stages + 1)]
     counts = [*records, *vectors, flat.step.shape[1]]
     rows = Rows(*(np.zeros(count * width) for count in counts))
     fresh, codes = np.zeros(width, np.int64), np.full(width, layout.NOT_FOUND)
@@ -59,7 +59,11 @@ def _runs(run: Integration, width: int) -> Integration:
     def for_each(part: np.ndarray) -> Any:
         return np.repeat(part[np.newaxis], width, axis=0)
 
+    def words_of(records: np.ndarray, *shape: int) -> Any:
+        return records.view(np.int64).reshape(width, *shape, -1)
+
     engine, chambers = for_each(run.engine), for_each(run.chambers)
+    begun = Snapshots(*map(for_each, run.snapshots))
     tables, spare = run.tables, run.scratch.spare
     return Integration(
         laws=for_each(run.laws),
@@ -76,12 +80,12 @@ def _runs(run: Integration, width: int) -> Integration:
             history=tables.history,
             filled=for_each(tables.filled),
         ),
-        snapshots=run.snapshots,
+        snapshots=begun,
         words=Words(
-            engine=engine.view(np.int64).reshape(width, 1, -1),
-            chambers=chambers.view(np.int64).reshape(width, 2, -1),
-            kept_engine=run.words.kept_engine,
-            kept_chambers=run.words.kept_chambers,
+            engine=words_of(engine, 1),
+            chambers=words_of(chambers, 2),
+            kept_engine=words_of(begun.engine, 2),
+            kept_chambers=words_of(begun.chambers, 2, 2),
         ),
         scratch=Scratch(
             rates=for_each(run.scratch.rates),

@@ -31,11 +31,19 @@ from numba.extending import (
     register_model,
 )
 
+from saleg.compiler import machine_code
 from saleg.laws import choice
 
 DOUBLE, WORD, BIT, INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(1), ir.IntType(32)
 #: What writes the instructions of a function.
 Emit = Callable[..., Any]
+#: How the functions here are compiled: as parts of those that call them.
+OPTIONS: dict[str, Any] = {
+    "forceinline": True,
+    "error_model": "numpy",
+    "_nrt": False,
+    "pipeline_class": machine_code.inner_compiler(),
+}
 #: Types of numbers that are the same in all lanes.
 NUMBERS = (types.Float, types.Integer, types.Boolean)
 
@@ -304,14 +312,14 @@ def lane_bits(context, mask):
     return types.int64(mask), generate
 
 
-@overload(choice.where, jit_options={"forceinline": True, "_nrt": False})
+@overload(choice.where, jit_options=OPTIONS)
 def _where(mask, a, b):
     if isinstance(mask, Mask):
         return lambda mask, a, b: _select(mask, a, b)
     return lambda mask, a, b: a if mask else b
 
 
-@overload(choice.any_of, jit_options={"forceinline": True, "_nrt": False})
+@overload(choice.any_of, jit_options=OPTIONS)
 def _any_of(mask):
     if isinstance(mask, Mask):
         return lambda mask: _any_lane(mask)

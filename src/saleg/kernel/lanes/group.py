@@ -11,7 +11,7 @@ import numpy as np
 
 from saleg.kernel.jit import inline
 from saleg.kernel.layout import ENGINE_RECORD, N_PEAKS
-from saleg.kernel.tuples import Integration, Iterates, Scratch, Spare, Tables, Words
+from saleg.kernel.tuples import Integration, Scratch, Snapshots, Spare, Tables, Words
 
 #: What is remembered of a step, of each lane: its length and its end, the event it is aimed at;
 #: whether it is one more after a rejected one; whether the state has just moved, so that another
@@ -106,6 +106,7 @@ class Group(NamedTuple):
 def run_of(runs, lane):
     """Arguments of the integration of a lane."""
     tables, words, scratch, spare = runs.tables, runs.words, runs.scratch, runs.scratch.spare
+    begun = runs.snapshots
     return Integration(
         runs.laws[lane],
         runs.engine[lane],
@@ -116,29 +117,19 @@ def run_of(runs, lane):
         runs.order,
         runs.options[lane],
         Tables(tables.strokes[lane], tables.events, tables.history, tables.filled[lane]),
-        runs.snapshots,
-        Words(words.engine[lane], words.chambers[lane], words.kept_engine, words.kept_chambers),
+        Snapshots(begun.engine[lane], begun.chambers[lane], begun.y[lane]),
+        Words(
+            words.engine[lane],
+            words.chambers[lane],
+            words.kept_engine[lane],
+            words.kept_chambers[lane],
+        ),
         Scratch(
             scratch.rates[lane],
             scratch.y_new[lane],
             Spare(spare.y, spare.dy, spare.rates, spare.y_new, spare.trail[lane]),
         ),
         runs.control,
-    )
-
-
-@inline
-def iterates_of(iterates, lane):
-    """Vectors of the search of a lane."""
-    return Iterates(
-        iterates.point[lane],
-        iterates.residual[lane],
-        iterates.image[lane],
-        iterates.points[lane],
-        iterates.residuals[lane],
-        iterates.gram[lane],
-        iterates.modes[lane],
-        iterates.counts[lane],
     )
 
 

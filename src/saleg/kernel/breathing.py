@@ -1,0 +1,331 @@
+"""Gas that flows in and out of a chamber: through ports, past rings, out of a crankcase.
+
+Masses of fuel, air and burnt gas, and of fresh gas among them, are states of a chamber whose laws
+ask for them. It has one temperature; what flows in mixes with it at once.
+"""
+
+from math import exp, log
+from typing import NamedTuple
+
+from saleg.kernel.flow import orifice_flow
+from saleg.kernel.jit import compiled, inline
+from saleg.kernel.layout import (
+    AIR,
+    BURNT,
+    CRANKCASE_BURNT,
+    CRANKCASE_MASS,
+    CRANKCASE_THETA,
+    CRANKCASE_WORK,
+    ENTHALPY_OUT,
+    EXPELLED,
+    EXPELLED_FRESH,
+    EXPELLED_FUEL,
+    FRESH,
+    FUEL,
+    G0,
+    OPEN,
+    SUPPLIED,
+    SUPPLIED_FUEL,
+    WALL,
+    V,
+    X,
+)
+from saleg.kernel.needs import (
+    CONTENTS_ARE_WANTED,
+    CRANKCASE_IS_WANTED,
+    WALL_TEMPERATURE_IS_WANTED,
+)
+from saleg.kernel.slots import (
+    gas_exchange_areas,
+    gas_exchange_exhaust,
+    gas_exchange_fresh_share,
+    gas_properties_gamma,
+    gas_properties_internal_energy,
+    leak_area,
+    leak_beyond,
+    supply_inlet_area,
+    supply_piston_area,
+    supply_volume,
+    wall_temperature_rate,
+)
+
+
+@inline
+def breathes(C, side):
+    """Whether the masses in a chamber are integrated."""
+    return CONTENTS_ARE_WANTED and C[side].breathes > 0.0
+
+
+@inline
+def by_flow(C, side):
+    """Whether gas flows through the ports of a chamber while they are open."""
+    return CONTENTS_ARE_WANTED and C[side].by_flow > 0.0
+
+
+@inline
+def has_own_pressure(C, side):
+    """Whether the state of a chamber is its own; open ports may hold it at that of its intake."""
+    return (C[side].mode != OPEN) | by_flow(C, side)
+
+
+@inline
+def mass_of(C, side, y):
+    """Mass of the gas in a chamber [kg]."""
+    if breathes(C, side):
+        return y[FUEL + side] + y[AIR + side] + y[BURNT + side]
+    return C[side].mass
+
+
+@inline
+def dilution(C, side, y, dy):
+    """Relative rate of the mass in a chamber that breathes [1/s]."""
+    return (dy[FUEL + side] + dy[AIR + side] + dy[BURNT + side]) / mass_of(C, side, y)
+
+
+@inline
+def wall_of(C, side, y):
+    """Temperature of the wall [K]."""
+    if WALL_TEMPERATURE_IS_WANTED:
+        return y[WALL + side]
+    return C[side].wall_temperature
+
+
+@compiled
+def take_contents(C, y):
+    """Bring what the records say of the chambers up to date with the state."""
+    for side in range(2):
+        c = C[side]
+        if breathes(C, side):
+            c.fuel, c.air, c.burnt = y[FUEL + side], y[AIR + side], y[BURNT + side]
+            c.mass = mass_of(C, side, y)
+        if WALL_TEMPERATURE_IS_WANTED:
+            c.wall_temperature = y[WALL + side]
+
+
+class Supplied(NamedTuple):
+    """Gas before the intake ports: pressure [Pa], temperature [K], share of burnt gas [-]."""
+
+    p: float
+    T: float
+    burnt: float
+
+
+class Flows(NamedTuple):
+    """Flows of gas into a chamber and out of it.
+
+    Attributes
+    ----------
+    ln_p : float
+        Their part in the rate of the logarithm of the pressure [1/s].
+    fuel, air, burnt, fresh : float
+        Rates of the contents, combustion left out [kg/s].
+    supplied, supplied_fuel, expelled, expelled_fuel, expelled_fresh : float
+        In through the intake; out, back into the intake too, less what comes back [kg/s].
+    enthalpy : float
+        Out, less in [W].
+    drawn, drawn_burnt, drawn_enthalpy : float
+        Out of the supply: gas and burnt gas among it [kg/s], enthalpy [W].
+    """
+
+    ln_p: float
+    fuel: float
+    air: float
+    burnt: float
+    fresh: float
+    supplied: float
+    supplied_fuel: float
+    expelled: float
+    expelled_fuel: float
+    expelled_fresh: float
+    enthalpy: float
+    drawn: float
+    drawn_burnt: float
+    drawn_enthalpy: float
+
+
+@inline
+def no_flows():
+    """Flows of a tight chamber."""
+    return Flows(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@inline
+def enthalpy_at(P, side, T, R):
+    """Specific enthalpy [J/kg]."""
+    return gas_properties_internal_energy(P, side, T) + R * T
+
+
+@inline
+def flow_in(P, side, area, gas, g, R, p_beyond, T_beyond):
+    """Mass flow into a chamber through an opening, negative out of it [kg/s]."""
+    if area <= 0.0:
+        return 0.0
+    if p_beyond > gas.p:
+        g_beyond = gas_properties_gamma(P, side, T_beyond)
+        return orifice_flow(area, p_beyond, T_beyond, gas.p, g_beyond, R)
+    return -orifice_flow(area, gas.p, gas.T, p_beyond, g, R)
+
+
+@inline
+def supply_of(P, C, side, y):
+    """Gas before the intake ports."""
+    c = C[side]
+    if CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0:
+        p, T = crankcase_of(P, C, side, y)
+        return Supplied(p, T, y[CRANKCASE_BURNT + side] / y[CRANKCASE_MASS + side])
+    return Supplied(c.intake_pressure, c.intake_temperature, 0.0)
+
+
+@inline
+def shares_leaving(P, C, side, y, mass, fuel_share, burnt_share):
+    """Shares of fuel, burnt gas and fresh gas in what leaves a cylinder through its ports.
+
+    Fresh gas is what its supply gives; the rest is what was there before.
+    """
+    fresh = y[FRESH + side]
+    x = gas_exchange_fresh_share(P, side, fresh / mass)
+    rest = (1.0 - x) / max(mass - fresh, 1e-9 * mass)
+    fuel = x * fuel_share + rest * (y[FUEL + side] - fresh * fuel_share)
+    burnt = x * burnt_share + rest * (y[BURNT + side] - fresh * burnt_share)
+    return fuel, burnt, x
+
+
+@compiled
+def chamber_flows(P, C, side, y, gas):
+    """All flows of a chamber at one instant."""
+    c = C[side]
+    R, mass = c.gas_constant, mass_of(C, side, y)
+    g = gas_properties_gamma(P, side, gas.T)
+    area_in, area_out, p_exhaust, T_exhaust = 0.0, 0.0, gas.p, gas.T
+    supply = Supplied(c.intake_pressure, c.intake_temperature, 0.0)
+    if c.mode == OPEN:
+        area_in, area_out = gas_exchange_areas(P, side, gas.clearance - c.port)
+        p_exhaust, T_exhaust = gas_exchange_exhaust(P, side)
+        supply = supply_of(P, C, side, y)
+    p_leak, T_leak = leak_beyond(P, side)
+    intake = flow_in(P, side, area_in, gas, g, R, supply.p, supply.T)
+    exhaust = flow_in(P, side, area_out, gas, g, R, p_exhaust, T_exhaust)
+    leak = flow_in(P, side, leak_area(P, side, gas), gas, g, R, p_leak, T_leak)
+    # Compositions: of the supply with fuel metered to its air at the ports, of what leaves, of the
+    # gas.
+    metered = c.equivalence_ratio_wanted * (1.0 - supply.burnt)
+    fuel_share = metered / (metered + c.air_fuel_ratio)
+    burnt_share = (1.0 - fuel_share) * supply.burnt
+    fuel_out, burnt_out, fresh_out = 0.0, 0.0, 0.0
+    if c.mode == OPEN:
+        fuel_out, burnt_out, fresh_out = shares_leaving(
+            P, C, side, y, mass, fuel_share, burnt_share
+        )
+    fuel_here, burnt_here = y[FUEL + side] / mass, y[BURNT + side] / mass
+    fresh_here = y[FRESH + side] / mass
+    fed, drawn_back = max(intake, 0.0), max(-intake, 0.0)
+    back, gone = max(exhaust, 0.0), max(-exhaust, 0.0)
+    seeped, leaked = max(leak, 0.0), max(-leak, 0.0)
+    leaves = drawn_back + gone
+    net = intake + exhaust + leak
+    fuel = fed * fuel_share - leaves * fuel_out - leaked * fuel_here
+    burnt = fed * burnt_share + back - leaves * burnt_out - leaked * burnt_here
+    fresh = fed - leaves * fresh_out - leaked * fresh_here
+    h, u = enthalpy_at(P, side, gas.T, R), gas_properties_internal_energy(P, side, gas.T)
+    h_supply = enthalpy_at(P, side, supply.T, R)
+    h_in = fed * h_supply
+    h_in += back * enthalpy_at(P, side, T_exhaust, R) + seeped * enthalpy_at(P, side, T_leak, R)
+    out = leaves + leaked
+    heat = h_in - (fed + back + seeped) * u - out * R * gas.T
+    from_supply = 1.0 - fuel_share
+    return Flows(
+        ln_p=net / mass + (g - 1.0) * heat / (gas.p * gas.V),
+        fuel=fuel,
+        air=net - fuel - burnt,
+        burnt=burnt,
+        fresh=fresh,
+        supplied=fed,
+        supplied_fuel=fed * fuel_share,
+        expelled=out - back - seeped,
+        expelled_fuel=leaves * fuel_out + leaked * fuel_here,
+        expelled_fresh=leaves * fresh_out + leaked * fresh_here,
+        enthalpy=out * h - h_in,
+        drawn=fed * from_supply - drawn_back,
+        drawn_burnt=fed * burnt_share - drawn_back * burnt_out,
+        drawn_enthalpy=fed * from_supply * h_supply - drawn_back * h,
+    )
+
+
+@inline
+def write_contents(P, C, side, y, rates, dy):
+    """Write the rates of the states a chamber's laws ask for."""
+    if CONTENTS_ARE_WANTED:
+        c, flows = C[side], rates.flows
+        burning = rates.released / c.lower_heating_value if rates.released > 0.0 else 0.0
+        if not breathes(C, side):
+            burning = 0.0
+        dy[FUEL + side] = flows.fuel - burning
+        dy[AIR + side] = flows.air - c.air_fuel_ratio * burning
+        dy[BURNT + side] = flows.burnt + (1.0 + c.air_fuel_ratio) * burning
+        dy[FRESH + side] = flows.fresh
+        dy[SUPPLIED + side] = flows.supplied
+        dy[SUPPLIED_FUEL + side] = flows.supplied_fuel
+        dy[EXPELLED + side] = flows.expelled
+        dy[EXPELLED_FUEL + side] = flows.expelled_fuel
+        dy[EXPELLED_FRESH + side] = flows.expelled_fresh
+        dy[ENTHALPY_OUT + side] = flows.enthalpy
+    if WALL_TEMPERATURE_IS_WANTED:
+        dy[WALL + side] = wall_temperature_rate(P, side, y[WALL + side], rates.lost)
+    if CRANKCASE_IS_WANTED:
+        write_crankcase(P, C, side, y, rates.flows, dy)
+
+
+@inline
+def displacement_of(C, side, x):
+    """Way of a piston from its midpoint, away from its head [m]."""
+    return C[side].sign * x
+
+
+@inline
+def crankcase_of(P, C, side, y):
+    """Pressure [Pa] and temperature [K] in a crankcase."""
+    volume = supply_volume(P, side, displacement_of(C, side, y[X]))
+    squeeze = volume / supply_volume(P, side, 0.0)
+    p = exp(y[CRANKCASE_THETA + side] - G0 * log(squeeze))
+    return p, p * volume / (y[CRANKCASE_MASS + side] * C[side].gas_constant)
+
+
+@inline
+def crankcase_force(P, C, side, y):
+    """Force of a crankcase on its piston, over the intake's pressure [N]; right is positive."""
+    if not (CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0):
+        return 0.0
+    p, _ = crankcase_of(P, C, side, y)
+    return -C[side].sign * supply_piston_area(P, side) * (p - C[side].intake_pressure)
+
+
+@compiled
+def write_crankcase(P, C, side, y, flows, dy):
+    """Write the rates of a crankcase that draws from the intake and feeds the ports."""
+    c = C[side]
+    if y[CRANKCASE_MASS + side] <= 0.0:
+        return
+    R, mass = c.gas_constant, y[CRANKCASE_MASS + side]
+    p, T = crankcase_of(P, C, side, y)
+    volume = supply_volume(P, side, displacement_of(C, side, y[X]))
+    growth = -supply_piston_area(P, side) * c.sign * y[V]
+    g, u = gas_properties_gamma(P, side, T), gas_properties_internal_energy(P, side, T)
+    area = supply_inlet_area(P, side, c.intake_pressure - p)
+    inlet, h = 0.0, u + R * T
+    if area > 0.0 and c.intake_pressure > p:
+        g_in = gas_properties_gamma(P, side, c.intake_temperature)
+        inlet = orifice_flow(area, c.intake_pressure, c.intake_temperature, p, g_in, R)
+        h = enthalpy_at(P, side, c.intake_temperature, R)
+    elif area > 0.0:
+        inlet = -orifice_flow(area, p, T, c.intake_pressure, g, R)
+    net = inlet - flows.drawn
+    heat = inlet * h - flows.drawn_enthalpy - u * net - p * growth
+    # Of the rate of ln p the part G0 dV/V belongs to theta.
+    rate = net / mass + (g - 1.0) * heat / (p * volume) - growth / volume
+    dy[CRANKCASE_THETA + side] = rate + G0 * growth / volume
+    dy[CRANKCASE_MASS + side] = net
+    share = y[CRANKCASE_BURNT + side] / mass
+    dy[CRANKCASE_BURNT + side] = min(inlet, 0.0) * share - flows.drawn_burnt
+    dy[CRANKCASE_WORK + side] = (p - c.intake_pressure) * growth
+    # Across the boundary of both: what the ports drew from the crankcase stays within.
+    dy[ENTHALPY_OUT + side] += flows.drawn_enthalpy - inlet * h + c.intake_pressure * growth

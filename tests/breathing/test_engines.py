@@ -1,0 +1,151 @@
+"""Engines that breathe: what is conserved, limits, symmetry, steady states, bad input."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import saleg
+from breathing_engines import single_piston
+from saleg import laws
+from saleg.status import Status
+
+PORTS = laws.PortFlow(
+    exhaust_width=0.1,
+    exhaust_height=0.04,
+    intake_width=0.12,
+    intake_height=0.03,
+    intake_delay=0.01,
+    displacement=0.6,
+)
+
+
+@pytest.fixture(scope="module")
+def breathing(base):
+    """Base case with ports and a charged intake."""
+    return base.replace(gas_exchange=PORTS, **{"intake.pressure": 1.4e5})
+
+
+@pytest.fixture(scope="module")
+def crankcase(base):
+    """Single-piston engine: crankcase, leaking rings, a wall that follows, a leaking gas spring."""
+    return single_piston(base, PORTS)
+
+
+def test_mass_and_fuel_are_conserved_to_rounding(breathing, crankcase):
+    for engine in (breathing, crankcase):
+        strokes = saleg.simulate(engine, 0.4).strokes
+        gained = strokes["supplied_mass"] - strokes["expelled_mass"]
+        change = np.diff(strokes["charge_mass"], axis=0)
+        assert np.abs(change - gained[1:]).max() < 1e-15 * len(strokes)
+        fuel = strokes["fresh_fuel_energy"] - strokes["exhaust_fuel_energy"]
+        left_over = (fuel - strokes["heat_released"])[1:] - np.diff(strokes["fuel_energy"], axis=0)
+        assert strokes["heat_released"].max() > 100.0
+        assert np.abs(left_over).max() < 1e-9
+
+
+def test_energy_closes_at_the_order_of_the_method(breathing, crankcase):
+    for engine in (breathing, crankcase):
+        off = [
+            abs(run.energy.residual) / run.energy.largest_term
+            for run in (saleg.simulate(engine, 0.4, rtol=rtol) for rtol in (1e-5, 1e-9))
+        ]
+        assert off[0] < 1e-5
+        assert off[1] < 1e-9
+
+
+def test_wide_ports_tend_to_the_instantaneous_exchange(base):
+    boosted = base.replace(**{"intake.pressure": 1.01e5, "egr": 0.0})
+    wanted = saleg.steady_state(boosted).performance
+    off = []
+    for width in (0.3, 3.0):
+        ports = laws.PortFlow(
+            exhaust_width=width,
+            exhaust_height=0.06,
+            intake_width=width,
+            intake_height=0.06,
+            intake_delay=0.001,
+            displacement=0.97,
+        )
+        steady = saleg.steady_state(boosted.replace(gas_exchange=ports))
+        assert steady.found
+        off.append(abs(steady.performance.charge_mass / wanted.charge_mass - 1.0))
+    assert off[1] < 0.02
+    assert off[1] < 0.5 * off[0]
+
+
+def test_the_mirror_image_of_an_engine_runs_as_its_mirror_image(crankcase):
+    mirrored = dataclasses.replace(crankcase, left=crankcase.right, right=crankcase.left)
+    one, other = (saleg.simulate(engine, 0.2) for engine in (crankcase, mirrored))
+    for name in ("supplied_mass", "charge_mass", "wall_temperature", "peak_pressure"):
+        assert np.array_equal(one.strokes[name], other.strokes[name][:, ::-1]), name
+    assert np.array_equal(one.strokes["x_end"], -other.strokes["x_end"])
+
+
+def test_a_fixed_point_is_where_waiting_leads(breathing):
+    steady, run = saleg.steady_state(breathing), saleg.simulate(breathing, 3.0)
+    assert steady.status is Status.STEADY
+    assert run.status is Status.STEADY
+    for name in ("stroke", "power", "efficiency", "charge_mass", "peak_pressure"):
+        found, waited = (getattr(one.performance, name) for one in (steady, run))
+        assert found == pytest.approx(waited, rel=1e-5), name
+    assert steady.stable
+    assert not np.isclose(steady.multipliers, 1.0).any()
+
+
+def test_a_single_piston_engine_with_crankcase_and_walls_is_solved(crankcase):
+    steady, run = saleg.steady_state(crankcase), saleg.simulate(crankcase, 40.0)
+    assert steady.status is Status.STEADY, steady.message
+    assert steady.performance.power == pytest.approx(run.performance.power, rel=1e-5)
+    assert steady.stable
+    assert not np.isclose(steady.multipliers, 1.0, atol=1e-9).any()
+    wall = steady.strokes["wall_temperature"].mean(axis=0)[0]
+    heat = steady.strokes["heat_lost"].sum(axis=0)[0] * steady.performance.frequency
+    law = crankcase.left.wall
+    # At rest the wall hands on what it takes; the bounce chamber takes none.
+    assert law.conductance * (wall - law.coolant_temperature) == pytest.approx(heat, rel=1e-3)
+
+
+def test_scavenging_figures_fit_together(breathing):
+    run = saleg.simulate(breathing, 1.0)
+    left, right = run.scavenging
+    assert left.charging_efficiency == pytest.approx(
+        left.delivery_ratio * left.trapping_efficiency, rel=1e-12
+    )
+    assert left.residual_fraction + left.scavenging_efficiency == pytest.approx(1.0)
+    assert 0.0 < left.residual_fraction < 0.2
+    # In a steady state what is delivered and not retained has been lost.
+    cycle = run.last_cycle_strokes
+    lost = cycle["expelled_fresh"][:, 0].sum()
+    retained = cycle["supplied_mass"][:, 0].sum() - lost
+    assert retained == pytest.approx(left.trapped_mass * left.scavenging_efficiency, rel=1e-6)
+    assert dataclasses.astuple(left) == pytest.approx(dataclasses.astuple(right), rel=1e-6)
+
+
+def test_an_engine_without_flow_has_no_scavenging(base):
+    left, right = saleg.simulate(base, 0.2).scavenging
+    assert np.isnan([*dataclasses.astuple(left), *dataclasses.astuple(right)]).all()
+
+
+def test_wrong_ports_and_crankcases_are_named_together(base):
+    wrong = base.replace(
+        gas_exchange=laws.PortFlow(intake_delay=0.08),
+        supply=laws.Crankcase(volume_at_midpoint=1e-4, area=3e-3),
+    )
+    assert [problem.path for problem in wrong.problems()] == [
+        "gas_exchange.intake_delay",
+        "supply.volume_at_midpoint",
+    ]
+    alone = base.replace(supply=laws.Crankcase(volume_at_midpoint=1e-3, area=3e-3))
+    with pytest.raises(saleg.InvalidEngine, match="gas_exchange = InstantExchange"):
+        saleg.simulate(alone, 0.1)
+
+
+def test_an_engine_that_breathes_goes_to_a_file_and_back(crankcase, tmp_path):
+    path = tmp_path / "engine.toml"
+    path.write_text(crankcase.to_toml(), encoding="utf-8")
+    assert saleg.Engine.from_toml(path) == crankcase
+    run = saleg.simulate(crankcase, 0.2)
+    run.save(tmp_path / "run.npz")
+    loaded = saleg.Run.load(tmp_path / "run.npz")
+    assert np.array_equal(loaded.strokes, run.strokes)
