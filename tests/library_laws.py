@@ -30,6 +30,8 @@ LAWS = [
     laws.ProgressiveSprings(),
     laws.PreloadedSprings(),
     laws.EndStops(gap=0.06),
+    laws.OneSidedSprings(left_stiffness=2e4, left_contact=0.01, right_contact=-0.02),
+    laws.AirSprings(length=0.1),
     laws.NoFriction(),
     laws.ConstantFriction(),
     laws.CoulombViscousFriction(),

@@ -110,6 +110,8 @@ def test_breakpoints_of_burn_rates(law, expected):
         (laws.PreloadedSprings(stiffness=2e4, preload=1e3), [-0.05, 0.05]),
         (laws.PreloadedSprings(stiffness=0.0), []),
         (laws.EndStops(gap=0.09), [-0.09, 0.09]),
+        (laws.OneSidedSprings(left_contact=0.02, right_contact=-0.03), [-0.03, 0.02]),
+        (laws.AirSprings(), []),
         (laws.ForceMap(positions=(-0.02, 0.03), forces=(-1.0, 1.0) * 2), [-0.02, 0.03]),
         (laws.LinearSprings(), []),
         (laws.LinearLoad(), []),

@@ -116,7 +116,7 @@ class Measurement:
         """Load weight the regulator asks for when it goes by the stroke measured."""
         if frequency <= 0.0:
             return true.regulated_weight
-        area = 0.125 * math.pi * sum(chamber.bore**2 for chamber in self._engine.chambers)
+        area = 0.5 * sum(self._engine.piston_areas)
         most = true.maximum_stroke
         seen = Stroke(stroke, 0.5 / frequency, most, 0.5 * most, area, 0.0, 0.0)
         return float(self._engine.alternator.at_dead_centre(true.regulated_weight, seen))

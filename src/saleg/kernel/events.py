@@ -49,7 +49,7 @@ def event_is_possible(E, C, event):
         return (c.mode == CLOSED) & (c.armed > DISARMED)
     if event < HEAD:
         return (c.mode != OPEN) & (c.ln_breakpoint > 0.0)
-    return (outward < 0.0) & (c.mode != OPEN)
+    return (outward < 0.0) & ((c.mode != OPEN) | (c.port < c.head_gap))
 
 
 @inline

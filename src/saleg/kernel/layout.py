@@ -152,6 +152,7 @@ ENGINE_RECORD = np.dtype(
         for name in (
             "mass",
             "per_mass",
+            "back_force",
             "length_scale",
             "speed_scale",
             "current_scale",

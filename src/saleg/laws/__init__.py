@@ -74,7 +74,14 @@ from saleg.laws.ignition import (
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
-from saleg.laws.springs import EndStops, LinearSprings, PreloadedSprings, ProgressiveSprings
+from saleg.laws.springs import (
+    AirSprings,
+    EndStops,
+    LinearSprings,
+    OneSidedSprings,
+    PreloadedSprings,
+    ProgressiveSprings,
+)
 from saleg.laws.supply import Crankcase, Plenum
 from saleg.laws.walls import FixedWall, LumpedWall
 
@@ -83,6 +90,7 @@ accept_earlier_names()
 __all__ = [
     "ActuatorLaw",
     "Actuators",
+    "AirSprings",
     "Alternator",
     "AlwaysMotored",
     "Annand",
@@ -142,6 +150,7 @@ __all__ = [
     "NoHeatTransfer",
     "NoLeak",
     "NoMisfires",
+    "OneSidedSprings",
     "Plenum",
     "PolytropicLoss",
     "PortFlow",
