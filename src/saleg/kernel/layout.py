@@ -152,7 +152,6 @@ ENGINE_RECORD = np.dtype(
         for name in (
             "mass",
             "per_mass",
-            "back_force",
             "length_scale",
             "speed_scale",
             "current_scale",
@@ -180,6 +179,7 @@ ENGINE_RECORD = np.dtype(
             "mass_fixed",
             "mass_per_stroke",
             "mass_per_work",
+            "back_force",
         )
     ]
     # What the stroke just ended showed, and what is commanded (kernel/control.py):
