@@ -45,7 +45,8 @@ class PatchyTransfer(laws.HeatTransfer):
 
 def uneven(base):
     """Other numbers on the left than on the right: whole cycles, of the laws of the base case."""
-    return base.replace(**{"left.bore": 0.066, "right.equivalence_ratio": 0.45})
+    changes = {"left.bore": 0.066, "right.equivalence_ratio": 0.45}
+    return base.replace(**changes, **{"left.back_area": 2e-3, "left.back_pressure": 1e5})
 
 
 def crossed(base):

@@ -305,7 +305,6 @@ def ln_pressure(C, side, x, theta):
 def pressure_and_temperature(C, side, y):
     """Pressure [Pa] and temperature [K] in a chamber, open or closed."""
     c = C[side]
-    c = C[side]
     p, T, own = c.intake_pressure, c.intake_temperature, has_own_pressure(C, side)
     if any_of(own):
         p = where(own, exp(ln_pressure(C, side, y[X], y[THETA + side])), p)

@@ -16,7 +16,7 @@ from saleg.kernel.adaptive import take_adaptive_step
 from saleg.kernel.events import event_is_possible, event_value, is_sound, next_time_event
 from saleg.kernel.integrate import control_step, proposal, shrunk, smallest_step
 from saleg.kernel.jit import cached, compiled, inline
-from saleg.kernel.lanes.group import N_STEPPED, UNWATCHED, put, run_of, take
+from saleg.kernel.lanes.group import N_CHANGING, UNWATCHED, put, run_of, take
 from saleg.kernel.layout import (
     BUFFER_FULL,
     END_OF_STEP,
@@ -143,6 +143,7 @@ def put_in(group, lane):
         step.t_end, step.watched = O.t_end, 1.0 if O.peaks > 1 else 0.0
         step.last_step = runs.engine[lane, 0].steps + O.max_steps
         put(rows.laws, lane, WIDTH, flat.laws[lane])
+        put(rows.engine, lane, WIDTH, flat.engine[lane])
         group.fresh[lane] = 0
     step.busy, step.moved = 1.0, 1.0
     if step.watched > 0.0:
@@ -152,7 +153,7 @@ def put_in(group, lane):
         put(rows.step, lane, WIDTH, flat.step[lane])
     else:
         put(rows.step, lane, WIDTH, flat.step[lane, :UNWATCHED])
-    put(rows.engine, lane, WIDTH, flat.engine[lane, :N_STEPPED])
+    put(rows.engine, lane, WIDTH, flat.engine[lane, :N_CHANGING])
     put(rows.chambers, lane, WIDTH, flat.chambers[lane])
     put(rows.y, lane, WIDTH, runs.y[lane, :N_WANTED])
     put(rows.rates, lane, WIDTH, runs.scratch.rates[lane, 0, :N_WANTED])
@@ -164,7 +165,7 @@ def take_out(group, lane):
     rows, flat, runs = group.rows, group.flat, group.runs
     step, trail = group.step[lane, 0], runs.scratch.spare.trail[lane]
     take(rows.step, lane, WIDTH, flat.step[lane, :UNWATCHED])
-    take(rows.engine, lane, WIDTH, flat.engine[lane, :N_STEPPED])
+    take(rows.engine, lane, WIDTH, flat.engine[lane, :N_CHANGING])
     take(rows.y, lane, WIDTH, runs.y[lane, :N_WANTED])
     take(rows.y_new, lane, WIDTH, runs.scratch.y_new[lane, :N_WANTED])
     rates = runs.scratch.rates[lane, :, :N_WANTED]

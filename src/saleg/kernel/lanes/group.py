@@ -33,9 +33,9 @@ STEP_RECORD = np.dtype(
     ]
     + [("peaks", np.float64, (N_PEAKS,)), ("trail", np.float64, (N_PEAKS + 1,))]
 )
-# Fields of the engine's record that steps use or change, the first of it; and those of a step
-# whose peaks are not looked for.
-N_STEPPED = list(ENGINE_RECORD.fields or ()).index("evaluations") + 1
+# Fields of the engine's record that steps or events change, the first of it: the others stay as
+# they are until the next return. And those of a step whose peaks are not looked for.
+N_CHANGING = list(ENGINE_RECORD.fields or ()).index("evaluations") + 1
 UNWATCHED = list(STEP_RECORD.fields or ()).index("peaks")
 
 
