@@ -1,9 +1,10 @@
 """Searches for the fixed points of many engines side by side, where that pays.
 
-It takes half the time and a kernel of its own, some ten seconds of a processor to compile. So only
-batches of :data:`MANY` engines and more go that way, if that kernel has been compiled before, and
-those of :data:`WORTH_COMPILING` in any case. What is found is the same within the tolerance, not to
-the last bit: therefore the whole batch decides, so that nothing depends on how it is cut.
+It takes half to two thirds of the time and a kernel of its own, some ten seconds of a processor to
+compile. So only batches of :data:`MANY` engines and more that follow no lines go that way, if that
+kernel has been compiled before, and those of :data:`WORTH_COMPILING` in any case. What is found is
+the same within the tolerance, not to the last bit: therefore the whole batch decides, so that
+nothing depends on how it is cut.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ def find_each(
     searches : Searches
         The engines; takes what is found.
     total : int
-        Number of engines in the batch they are a piece of.
+        Number of engines in the batch they are a piece of, 0 to search one by one.
     width : int
         Engines side by side.
 
