@@ -5,6 +5,7 @@ from saleg import laws
 LAWS = [
     laws.ChangGas(),
     laws.ConstantGamma(1.35),
+    laws.MixtureGas(),
     laws.Hohenberg(),
     laws.Woschni(),
     laws.Chang(),

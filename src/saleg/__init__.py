@@ -40,6 +40,7 @@ if TYPE_CHECKING:  # imported on first use
     from saleg import control as control
     from saleg import design as design
     from saleg import export as export
+    from saleg import fuels as fuels
     from saleg import fundamental as fundamental
     from saleg import optimize as optimize
     from saleg import plotting as plotting

@@ -52,7 +52,7 @@ from saleg.laws.friction import (
     ViscousFriction,
 )
 from saleg.laws.gas_exchange import InstantExchange, PortFlow
-from saleg.laws.gas_properties import ChangGas, ConstantGamma
+from saleg.laws.gas_properties import ChangGas, ConstantGamma, MixtureGas
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
     Annand,
@@ -142,6 +142,7 @@ __all__ = [
     "LumpedWall",
     "MakeUpValve",
     "Misfires",
+    "MixtureGas",
     "Motion",
     "MotorControl",
     "NeverMotored",
