@@ -59,6 +59,12 @@ class Kernel:
             self._addresses[name] = machine_code.address(*self._compiled(name, arguments))
         return self._addresses[name]
 
+    def is_kept(self, name: str) -> bool:
+        """Whether machine code of an entry point is there: in this process, or on disk."""
+        if name in self._entries or name in self._addresses:
+            return True
+        return self._kept is not None and self._kept.has_code(name)
+
     def _compiled(
         self, name: str, arguments: tuple[Any, ...]
     ) -> tuple[Callable[..., Any], machine_code.Types]:
