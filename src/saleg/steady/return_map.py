@@ -31,8 +31,11 @@ from saleg.kernel.orbit import (
     Z_CRANKCASE_MASS,
     Z_FRESH,
     Z_INTEGRAL,
+    Z_LN_CLOSING_PRESSURE,
+    Z_LN_CLOSING_TEMPERATURE,
     Z_LN_CRANKCASE,
     Z_LN_DURATION,
+    Z_LN_LIT,
     Z_LN_MASS_MOVING,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
@@ -81,10 +84,13 @@ FARTHEST = 0.5
 DIFFERENCE = 1e-5
 #: Entries of the vector, per side, for the states that laws ask for; masses have entries anyway.
 ENTRIES_OF_STATES = {
-    "contents": (Z_FRESH,),
+    "contents": (Z_FRESH, Z_LN_LIT, Z_LN_CLOSING_PRESSURE, Z_LN_CLOSING_TEMPERATURE),
     "wall_temperature": (Z_WALL,),
     "crankcase": (Z_LN_CRANKCASE, Z_CRANKCASE_MASS, Z_CRANKCASE_BURNT),
 }
+#: Tolerance of the steps of an engine that breathes, over that of the map, and the least there is.
+FINER_WITH_CORNERS = 1e-3
+FINEST_WITH_CORNERS = 1e-12
 
 
 class NoReturn(Exception):
@@ -338,6 +344,16 @@ def differences_at(engine: Engine, starts: States, by: float) -> Differences:
     )
 
 
+def step_tolerance(engine: Engine, rtol: float) -> float:
+    """Tolerance of the steps of a return map.
+
+    Valves that lift and flows that turn are corners at which no step ends: the image scatters by
+    some hundred times the tolerance where an engine breathes.
+    """
+    breathes = any(chamber.states for chamber in engine.chambers)
+    return max(FINER_WITH_CORNERS * rtol, FINEST_WITH_CORNERS) if breathes else rtol
+
+
 def longest_return(engines: np.ndarray) -> np.ndarray:
     """Longest time to the next return of each engine [s]."""
     longest: np.ndarray = LONGEST * engines["length_scale"] / engines["speed_scale"]
@@ -354,8 +370,10 @@ def _moved_entries(engine: Engine, starts: States) -> np.ndarray:
         by_flow = starts.chambers["by_flow"][:, side] > 0.0
         for entry in (Z_LN_PRESSURE, Z_INTEGRAL, Z_LN_MOTORED):
             moved[:, first + entry] &= (mode != layout.OPEN) | by_flow
-        for entry in (Z_BURN_PHASE, Z_LN_DURATION, Z_TO_BURN):
+        for entry in (Z_BURN_PHASE, Z_LN_DURATION, Z_TO_BURN, Z_LN_LIT):
             moved[:, first + entry] &= mode == layout.BURNING
+        for entry in (Z_LN_CLOSING_PRESSURE, Z_LN_CLOSING_TEMPERATURE):
+            moved[:, first + entry] &= (mode != layout.OPEN) & by_flow
     return moved
 
 
@@ -384,7 +402,8 @@ def constant_entries(engine: Engine) -> set[int]:
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
             kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED, first + Z_WALL}
         elif isinstance(chamber, BounceChamber):  # gas flows, but no charge is composed
-            kept |= {first + Z_INTEGRAL, first + Z_RATIO}
+            kept |= {first + Z_INTEGRAL, first + Z_RATIO, first + Z_LN_LIT}
+            kept |= {first + Z_LN_CLOSING_PRESSURE, first + Z_LN_CLOSING_TEMPERATURE}
         if not engine.needs_motored_pressure:
             kept.add(first + Z_LN_MOTORED)
     return kept | unused_entries(engine)

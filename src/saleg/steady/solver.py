@@ -38,7 +38,13 @@ from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
-from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
+from saleg.steady.return_map import (
+    ReturnMap,
+    Search,
+    is_symmetric,
+    repeats_itself,
+    step_tolerance,
+)
 from saleg.steady.slow_states import FINEST, find_settled, finer, is_sharp
 from saleg.steady.stability import Stability, stability
 
@@ -50,9 +56,6 @@ DEFAULT_TOLERANCE = 1e-6
 MAX_MAPS = 60
 #: Residual of the map a steady state may have, over the tolerance of the integrator.
 RESIDUAL = 1.0
-#: Tolerance of the steps of an engine that breathes, over that of the map, and the least there is.
-FINER_WITH_CORNERS = 1e-3
-FINEST_WITH_CORNERS = 1e-12
 #: Residual of the verifying cycle beyond which a fixed point does not count, over the tolerance:
 #: an unstable one grows away from itself.
 MAX_MISSED = 100.0
@@ -392,16 +395,6 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
     if quick:
         return not_found(engine, spent, evaluations, "no orbit from the standard starts")
     return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
-
-
-def step_tolerance(engine: Engine, rtol: float) -> float:
-    """Tolerance of the steps of a return map.
-
-    Valves that lift and flows that turn are corners at which no step ends: the image scatters by
-    some hundred times the tolerance where an engine breathes.
-    """
-    breathes = any(chamber.states for chamber in engine.chambers)
-    return max(FINER_WITH_CORNERS * rtol, FINEST_WITH_CORNERS) if breathes else rtol
 
 
 def starts(engine: Engine) -> Iterator[Start]:
