@@ -91,6 +91,8 @@ ENTRIES_OF_STATES = {
 #: Tolerance of the steps of an engine that breathes, over that of the map, and the least there is.
 FINER_WITH_CORNERS = 1e-3
 FINEST_WITH_CORNERS = 1e-12
+#: Scatter of the image of such an engine over the tolerance of the steps, at the most.
+SCATTER = 1e4
 
 
 class NoReturn(Exception):
@@ -350,8 +352,17 @@ def step_tolerance(engine: Engine, rtol: float) -> float:
     Valves that lift and flows that turn are corners at which no step ends: the image scatters by
     some hundred times the tolerance where an engine breathes.
     """
-    breathes = any(chamber.states for chamber in engine.chambers)
-    return max(FINER_WITH_CORNERS * rtol, FINEST_WITH_CORNERS) if breathes else rtol
+    return max(FINER_WITH_CORNERS * rtol, FINEST_WITH_CORNERS) if has_states(engine) else rtol
+
+
+def map_tolerance(engine: Engine, rtol: float) -> float:
+    """Tolerance to which a return can be told: above the scatter of the finest steps."""
+    return max(rtol, SCATTER * FINEST_WITH_CORNERS) if has_states(engine) else rtol
+
+
+def has_states(engine: Engine) -> bool:
+    """Whether chambers own states, beside pressure, that change as gas flows or walls warm up."""
+    return any(chamber.states for chamber in engine.chambers)
 
 
 def longest_return(engines: np.ndarray) -> np.ndarray:

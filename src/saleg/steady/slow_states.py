@@ -33,7 +33,15 @@ SLOW = 0.1
 MAX_JUMPS = 30
 MAX_VAIN_JUMPS = 3
 #: Steps to one return that differences of the map may take; the base case takes four hundred.
-FINE_STEPS = 3000
+FINE_STEPS = 10_000
+#: Length of a Newton's step from which on the slow motion itself is followed instead, how far
+#: at once, and what shares of that are tried.
+NEARBY = 0.1
+LONGEST = 0.25
+SHARES = (1.0, 0.5, 0.25, 0.125)
+#: Maps between two steps along the slow motion, and returns that one may stand for.
+MAPS_ON_THE_WAY = 2
+MAX_RETURNS = 1e9
 #: Slowness of a map from which the error of its steps counts: it displaces the fixed point by as
 #: many times itself.
 SLOWEST = 30.0
@@ -55,7 +63,7 @@ def find_settled(
     ----------
     return_map : ReturnMap
     max_maps : int
-        Maps between two jumps.
+        Maps between two jumps, at most; fewer on a long way.
     tolerance : float
         Residual of the map.
     patient : bool
@@ -86,12 +94,16 @@ def find_settled(
             if jump is None:
                 break
             length = float(np.abs(jump).max())
-            vain += length >= shortest
-            if vain >= MAX_VAIN_JUMPS:
-                break
-            shortest = min(shortest, length)
+            if length > NEARBY:  # on the way the residual may well grow
+                max_maps, smallest = min(max_maps, MAPS_ON_THE_WAY), SLOW
+            else:
+                vain += length >= shortest
+                if vain >= MAX_VAIN_JUMPS:
+                    break
+                shortest = min(shortest, length)
             if not settled or length > NEAR * tolerance:
-                return_map.jump(jump)
+                if not jump_to_return(return_map, jump):
+                    break
                 continue
         if not give_back_entropy(return_map, begin, NEAR * tolerance):
             return found, strokes
@@ -155,8 +167,53 @@ def newton_step(return_map: ReturnMap) -> np.ndarray | None:
     if not np.isfinite(matrix).all() or not np.isfinite(residual).all():
         return None
     jump = np.zeros(len(z))
-    jump[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], residual[free], rcond=None)[0]
+    jump[free] = long_step(matrix[np.ix_(free, free)], residual[free])
     return jump
+
+
+def jump_to_return(return_map: ReturnMap, jump: np.ndarray) -> bool:
+    """Take a jump, shortened until the state it leads to comes back near to itself; if it does."""
+    begin = return_map.state.copy()
+    for share in SHARES:
+        return_map.reset(begin)
+        return_map.jump(share * jump)
+        there = return_map.state.copy()
+        z = return_map.vector(there)
+        try:
+            missed = np.abs(return_map.image(there, z) - z).max()
+        except NoReturn:
+            continue
+        if missed < SLOW:
+            return_map.reset(there)
+            return True
+    return False
+
+
+def long_step(matrix: np.ndarray, residual: np.ndarray) -> np.ndarray:
+    """Newton's step, or what stands for many returns where that is far.
+
+    Far away Newton's method may lead to where no fixed point is: the leak of a gas spring that
+    slows down as the spring fills seems to end at an infinite mass. The implicit step of Euler's
+    method for n returns, ``(I / n + I - J) dz = residual``, goes where the motion itself goes, and
+    is Newton's as n grows.
+
+    Parameters
+    ----------
+    matrix : ndarray
+        Identity less the derivative of the map.
+    residual : ndarray
+    """
+    newton: np.ndarray = np.linalg.lstsq(matrix, residual, rcond=None)[0]
+    if np.abs(newton).max() <= NEARBY:
+        return newton
+    step, returns = residual, 1.0
+    while returns < MAX_RETURNS:
+        shift = np.eye(len(residual)) / returns
+        longer = np.linalg.lstsq(matrix + shift, residual, rcond=None)[0]
+        if not np.abs(longer).max() <= LONGEST:
+            break
+        step, returns = longer, 2.0 * returns
+    return step
 
 
 def give_back_entropy(return_map: ReturnMap, begin: State, tolerance: float) -> bool:

@@ -24,7 +24,7 @@ from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import Course, Replay
-from saleg.simulation.initial_state import natural_period, prepare
+from saleg.simulation.initial_state import State, natural_period, prepare
 from saleg.simulation.outcome import (
     MAX_IMBALANCE,
     delivers_power,
@@ -42,10 +42,17 @@ from saleg.steady.return_map import (
     ReturnMap,
     Search,
     is_symmetric,
+    map_tolerance,
     repeats_itself,
     step_tolerance,
 )
-from saleg.steady.slow_states import FINEST, find_settled, finer, is_sharp
+from saleg.steady.slow_states import (
+    FINEST,
+    MAPS_ON_THE_WAY,
+    find_settled,
+    finer,
+    is_sharp,
+)
 from saleg.steady.stability import Stability, stability
 
 if TYPE_CHECKING:
@@ -366,35 +373,71 @@ def check_effort(effort: Effort) -> None:
 def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadyState:
     """Fixed point by iteration, from one start after the other; else simulation, unless quick."""
     symmetric = is_symmetric(engine)
-    spent = evaluations = 0
+    spent = Spent()
     ways = (False,) if not symmetric else (True,) if quick else (True, False)
     for start, mirrored in itertools.product(starts(engine), ways):
         state = prepare(replace(engine, start=start))
-        most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
-        steps = step_tolerance(engine, rtol)
-        return_map = ReturnMap.of(engine, state, steps, mirrored, most_steps)
-        found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick)
-        cycled = found.code == layout.END_OF_TIME
-        spent += strokes
-        evaluations += return_map.evaluations
-        if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
-            continue  # unstable, or not as symmetric as it looks
-        if not converged(found, rtol):
-            continue
-        return_map.begin_on_the_left()
-        if not is_sharp(return_map, found, rtol):
-            steps = step_tolerance(engine, finer(rtol))
-            sharper = return_map.finer(steps)
-            again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
-            spent += strokes
-            evaluations += sharper.evaluations - return_map.evaluations
-            if not converged(again, finer(rtol)):
-                continue
-            return_map, found = sharper, again
-        return result_of(return_map, spent, evaluations, found.missed, "fixed point", steps)
+        found = _from_state(engine, state, mirrored, rtol, max_maps, quick, spent)
+        if found is not None:
+            return found
     if quick:
-        return not_found(engine, spent, evaluations, "no orbit from the standard starts")
-    return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
+        why = "no orbit from the standard starts"
+        return not_found(engine, spent.half_cycles, spent.evaluations, why)
+    why = "the return map did not settle"
+    waited = waited_for(engine, rtol, spent.half_cycles, spent.evaluations, why)
+    run = waited.fallback
+    if waited.status is Status.UNSTEADY and run is not None and isinstance(run.replay, Replay):
+        # What has calmed down but for states that change slowly has a fixed point near by.
+        spent.half_cycles, spent.evaluations = waited.half_cycles, waited.evaluations
+        late = run.replay.start
+        found = _from_state(engine, late, False, rtol, MAPS_ON_THE_WAY, quick, spent)
+        if found is not None:
+            return found
+    return waited
+
+
+@dataclass
+class Spent:
+    """Half cycles and right-hand sides that a search has taken so far."""
+
+    half_cycles: int = 0
+    evaluations: int = 0
+
+
+def _from_state(
+    engine: Engine,
+    state: State,
+    mirrored: bool,
+    rtol: float,
+    max_maps: int,
+    quick: bool,
+    spent: Spent,
+) -> SteadyState | None:
+    """Fixed point by iteration from one state, counted in `spent`; None if it leads to none."""
+    most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
+    rtol, steps = map_tolerance(engine, rtol), step_tolerance(engine, rtol)
+    return_map = ReturnMap.of(engine, state, steps, mirrored, most_steps)
+    before = return_map.evaluations
+    found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick)
+    cycled = found.code == layout.END_OF_TIME
+    spent.half_cycles += strokes
+    spent.evaluations += return_map.evaluations - before
+    if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
+        return None  # unstable, or not as symmetric as it looks
+    if not converged(found, rtol):
+        return None
+    return_map.begin_on_the_left()
+    if not is_sharp(return_map, found, rtol):
+        steps = step_tolerance(engine, finer(rtol))
+        sharper = return_map.finer(steps)
+        again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
+        spent.half_cycles += strokes
+        spent.evaluations += sharper.evaluations - return_map.evaluations
+        if not converged(again, finer(rtol)):
+            return None
+        return_map, found = sharper, again
+    counts = spent.half_cycles, spent.evaluations
+    return result_of(return_map, *counts, found.missed, "fixed point", steps)
 
 
 def starts(engine: Engine) -> Iterator[Start]:
