@@ -334,15 +334,20 @@ def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> Steady
     if quick:
         return _solved(engine, rtol, min(max_maps, QUICK_MAPS), quick)
     found = _solved(engine, rtol, max_maps, quick)
-    if found.status is Status.UNSTEADY and rtol > FINEST and not _is_given_up(found.fallback):
-        # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
-        again = _solved(engine, finer(rtol), max_maps, quick)
-        return replace(
-            again,
-            half_cycles=again.half_cycles + found.half_cycles,
-            evaluations=again.evaluations + found.evaluations,
-        )
-    return found
+    if found.status is not Status.UNSTEADY or _is_given_up(found.fallback):
+        return found
+    followed = _followed(engine, rtol, found)
+    if followed is not None:
+        return followed
+    if rtol <= FINEST:
+        return found
+    # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
+    again = _solved(engine, finer(rtol), max_maps, quick)
+    return replace(
+        again,
+        half_cycles=again.half_cycles + found.half_cycles,
+        evaluations=again.evaluations + found.evaluations,
+    )
 
 
 def check_tolerance(rtol: float) -> float:
@@ -377,23 +382,23 @@ def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadySt
     ways = (False,) if not symmetric else (True,) if quick else (True, False)
     for start, mirrored in itertools.product(starts(engine), ways):
         state = prepare(replace(engine, start=start))
-        found = _from_state(engine, state, mirrored, rtol, max_maps, quick, spent)
+        found = _from_state(engine, state, mirrored, rtol, max_maps, spent, quick=quick)
         if found is not None:
             return found
     if quick:
         why = "no orbit from the standard starts"
         return not_found(engine, spent.half_cycles, spent.evaluations, why)
     why = "the return map did not settle"
-    waited = waited_for(engine, rtol, spent.half_cycles, spent.evaluations, why)
-    run = waited.fallback
-    if waited.status is Status.UNSTEADY and run is not None and isinstance(run.replay, Replay):
-        # What has calmed down but for states that change slowly has a fixed point near by.
-        spent.half_cycles, spent.evaluations = waited.half_cycles, waited.evaluations
-        late = run.replay.start
-        found = _from_state(engine, late, False, rtol, MAPS_ON_THE_WAY, quick, spent)
-        if found is not None:
-            return found
-    return waited
+    return waited_for(engine, rtol, spent.half_cycles, spent.evaluations, why)
+
+
+def _followed(engine: Engine, rtol: float, waited: SteadyState) -> SteadyState | None:
+    """Fixed point to which the slow motion leads on from the end of a simulation, if it does."""
+    if waited.fallback is None or not isinstance(waited.fallback.replay, Replay):
+        return None
+    late = waited.fallback.replay.start
+    spent = Spent(waited.half_cycles, waited.evaluations)
+    return _from_state(engine, late, False, rtol, MAPS_ON_THE_WAY, spent, follow=True)
 
 
 @dataclass
@@ -410,15 +415,17 @@ def _from_state(
     mirrored: bool,
     rtol: float,
     max_maps: int,
-    quick: bool,
     spent: Spent,
+    *,
+    quick: bool = False,
+    follow: bool = False,
 ) -> SteadyState | None:
     """Fixed point by iteration from one state, counted in `spent`; None if it leads to none."""
     most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
     rtol, steps = map_tolerance(engine, rtol), step_tolerance(engine, rtol)
     return_map = ReturnMap.of(engine, state, steps, mirrored, most_steps)
     before = return_map.evaluations
-    found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick)
+    found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick, follow)
     cycled = found.code == layout.END_OF_TIME
     spent.half_cycles += strokes
     spent.evaluations += return_map.evaluations - before
