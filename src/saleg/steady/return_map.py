@@ -50,7 +50,7 @@ from saleg.kernel.orbit import (
 from saleg.kernel.orbits import Searches
 from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
 from saleg.laws import NoHeatTransfer, NoMisfires
-from saleg.laws.arguments import Charge, Gas, Motion
+from saleg.laws.arguments import Charge, Gas, Motion, Stroke
 from saleg.laws.base import Alternator, Law
 from saleg.simulation.course import STEPS_PER_CALL, options_record
 from saleg.simulation.initial_rows import States
@@ -502,7 +502,7 @@ def is_symmetric(engine: Engine) -> bool:
         try:
             there = _forces(engine, Motion(0.0, x, v, direction, current))
             mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
-            signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
+            signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0)
             for sign, a, b in zip(signs, there, mirrored, strict=True):
                 if abs(sign * a - b) > 1e-12 * abs(a):
                     return False
@@ -529,7 +529,8 @@ def _probes(engine: Engine) -> list[tuple[float, float, float, float]]:
 
 
 def _forces(engine: Engine, motion: Motion) -> list[float]:
-    """Forces and the rate of the current, then energies: odd and even in the mirror."""
+    """Forces and the rate of the current, then energies and what is held: odd, then even."""
+    stroke = _stroke_at(engine, motion)
     return [
         engine.springs.force(motion),
         engine.friction.force(1.0, motion),
@@ -537,4 +538,15 @@ def _forces(engine: Engine, motion: Motion) -> list[float]:
         engine.alternator.current_rate(1.0, motion),
         engine.springs.energy(motion),
         engine.alternator.electrical_power(1.0, motion),
+        engine.alternator.at_dead_centre(1.0, stroke),
+        engine.friction.at_dead_centre(1.0, stroke),
     ]
+
+
+def _stroke_at(engine: Engine, motion: Motion) -> Stroke:
+    """A stroke that ends at different distances from the midpoint."""
+    half, speed = 0.5 * engine.maximum_stroke, abs(motion.v)
+    ends = sorted((motion.x, -0.9 * motion.x))
+    length = ends[1] - ends[0]
+    area = 0.5 * sum(chamber.area for chamber in engine.chambers)
+    return Stroke(length, length / speed, 2.0 * half, half, area, 1.0, speed, *ends)
