@@ -18,6 +18,7 @@ PUBLIC = (
     "saleg.design.formulas",
     "saleg.errors",
     "saleg.export",
+    "saleg.fuels",
     "saleg.fundamental",
     "saleg.laws",
     "saleg.machines",

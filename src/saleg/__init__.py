@@ -15,6 +15,7 @@ from saleg.engine import (
     Engine,
     Fuel,
     Intake,
+    OpenEnd,
     SealedCylinder,
     Translator,
 )
@@ -27,6 +28,7 @@ from saleg.errors import (
     UnknownPath,
 )
 from saleg.simulation.integration import simulate
+from saleg.simulation.net_output import Auxiliaries, NetOutput
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.simulation.scavenging import Scavenging
@@ -38,6 +40,7 @@ if TYPE_CHECKING:  # imported on first use
     from saleg import control as control
     from saleg import design as design
     from saleg import export as export
+    from saleg import fuels as fuels
     from saleg import fundamental as fundamental
     from saleg import optimize as optimize
     from saleg import plotting as plotting
@@ -50,6 +53,7 @@ if TYPE_CHECKING:  # imported on first use
     from saleg.studies.comparison import compare as compare
 
 __all__ = [
+    "Auxiliaries",
     "BounceChamber",
     "Controller",
     "Cylinder",
@@ -61,6 +65,8 @@ __all__ = [
     "Intake",
     "InvalidEngine",
     "LawError",
+    "NetOutput",
+    "OpenEnd",
     "Performance",
     "Run",
     "SalegError",

@@ -14,6 +14,7 @@ LAZY = (
     "control",
     "design",
     "export",
+    "fuels",
     "fundamental",
     "optimize",
     "plotting",

@@ -26,7 +26,7 @@ class Quantities:
     def __post_init__(self) -> None:
         """Turn every number, and every number of a tuple, into a float."""
         own: Any = type(self)
-        for field in _fields(own):
+        for field in fields_of(own):
             value = getattr(self, field.name)
             kind = type(value)
             if kind is not float and not hasattr(kind, "__dataclass_fields__"):
@@ -252,8 +252,19 @@ def _plain(value: Any) -> Any:
 
 
 @lru_cache(maxsize=1024)
-def _fields(kind: Any) -> tuple[dataclasses.Field[Any], ...]:
+def fields_of(kind: Any) -> tuple[dataclasses.Field[Any], ...]:
+    """Fields of a dataclass, found once: they are asked for at every check of an engine."""
     return dataclasses.fields(kind)
+
+
+@lru_cache(maxsize=1024)
+def _with_limits(kind: Any) -> tuple[tuple[dataclasses.Field[Any], Any, bool], ...]:
+    """Fields of a class with their limits, and whether each holds one number."""
+    found = [(field, field.metadata.get("limits")) for field in fields_of(kind)]
+    return tuple(
+        (field, limits, limits is not None and "series" not in field.metadata)
+        for field, limits in found
+    )
 
 
 def problems(node: Any, path: str = "") -> list[Problem]:
@@ -274,15 +285,9 @@ def problems(node: Any, path: str = "") -> list[Problem]:
     """
     found: list[Problem] = []
     kind: Any = type(node)
-    for field in _fields(kind):
+    for field, limits, plain in _with_limits(kind):
         value = getattr(node, field.name)
-        limits = field.metadata.get("limits")
-        if (
-            limits is not None
-            and type(value) is limits.kind
-            and limits.low < value < limits.high
-            and "series" not in field.metadata
-        ):
+        if plain and type(value) is limits.kind and limits.low < value < limits.high:
             continue  # by far the most
         where = f"{path}.{field.name}" if path else field.name
         if "series" in field.metadata:
@@ -343,7 +348,10 @@ def unusual(node: Any, path: str = "") -> list[Problem]:
     found: list[Problem] = []
     kind: Any = type(node)
     for name, limits in _with_usual_range(kind):
-        value, where = getattr(node, name), f"{path}.{name}" if path else name
+        value = getattr(node, name)
+        if limits is not None and type(value) is float and is_usual(value, limits):
+            continue  # by far the most
+        where = f"{path}.{name}" if path else name
         if limits is None:
             parts = dataclasses.is_dataclass(value) and not isinstance(value, type)
             found.extend(unusual(value, where) if parts else ())
@@ -382,7 +390,7 @@ def is_usual(value: Any, limits: Limits) -> Any:
 @lru_cache(maxsize=1024)
 def _with_usual_range(kind: Any) -> tuple[tuple[str, Any], ...]:
     """Fields with a usual range, and that; None for fields that may be dataclasses with some."""
-    limits = [(field.name, field.metadata.get("limits")) for field in _fields(kind)]
+    limits = [(field.name, field.metadata.get("limits")) for field in fields_of(kind)]
     return tuple((name, found) for name, found in limits if found is None or found.usual)
 
 

@@ -16,7 +16,19 @@ from saleg.compiler.module import load
 from saleg.compiler.source import fingerprint, is_ours
 from saleg.compiler.text import INTEGRATOR, compose, methods_text
 from saleg.kernel.tuples import Control
-from saleg.laws import Actuators, CFRIgnition, InstantExchange, Law, NoMisfires, Plenum, Wiebe
+from saleg.laws import (
+    Actuators,
+    CFRIgnition,
+    ChangGas,
+    FixedWall,
+    InstantExchange,
+    Law,
+    NoHeatTransfer,
+    NoLeak,
+    NoMisfires,
+    Plenum,
+    Wiebe,
+)
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 
 if TYPE_CHECKING:
@@ -25,13 +37,18 @@ if TYPE_CHECKING:
     from saleg.engine.controller import Controller
     from saleg.laws.control.base import ActuatorLaw
 
-#: What fills the combustion slots of a bounce chamber; never called, since it never lights.
+#: What fills the combustion slots of a bounce chamber, which never lights, and all slots of an open
+#: end, which holds no gas.
 IDLE_LAWS: dict[str, Law] = {
+    "gas_properties": ChangGas(),
+    "heat_transfer": NoHeatTransfer(),
     "heat_release": Wiebe(),
     "ignition": CFRIgnition(),
     "gas_exchange": InstantExchange(),
     "misfires": NoMisfires(),
     "supply": Plenum(),
+    "leak": NoLeak(),
+    "wall": FixedWall(),
 }
 
 #: Actuators of an engine without a controller; never called.

@@ -124,7 +124,7 @@ class Measurement:
         """Load weight the regulator asks for when it goes by the stroke measured."""
         if frequency <= 0.0:
             return true.regulated_weight
-        area = 0.125 * math.pi * sum(chamber.bore**2 for chamber in self._engine.chambers)
+        area = 0.5 * sum(self._engine.piston_areas)
         most = true.maximum_stroke
         stroke, duration = abs(ends[1] - ends[0]), 0.5 / frequency
         seen = Stroke(stroke, duration, most, 0.5 * most, area, 0.0, 0.0, min(ends), max(ends))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from saleg.design import formulas
-from saleg.engine import Engine
+from saleg.engine import Engine, GasChamber
 
 #: Direction of either side from the midpoint.
 SIDES = {"left": -1.0, "right": 1.0}
@@ -26,17 +26,21 @@ def dimensions(engine: Engine, side: str) -> dict[str, float]:
     Returns
     -------
     dict of str to float
-        Named as in :class:`saleg.design.geometry.Geometry`.
+        Named as in :class:`saleg.design.geometry.Geometry`; of an open end, where there is neither
+        piston nor head, the rod ends at ``crown`` and ``bore`` is 0.
     """
-    chamber = engine.chambers[list(SIDES).index(side)]
-    reach = 1e3 * max(part.half_stroke for part in engine.chambers)
-    bore = 1e3 * max(part.bore for part in engine.chambers)
+    chamber = getattr(engine, side)
+    chambers = [part for part in engine.chambers if isinstance(part, GasChamber)]
+    reach = 1e3 * max(part.half_stroke for part in chambers)
+    bore = 1e3 * max(part.bore for part in chambers)
     mover_end = 0.7 * reach
     bearing = mover_end + reach
     crown = bearing + reach + 1e3 * (formulas.crown_position(0.0))
     head = crown + 1e3 * chamber.half_stroke
+    if not isinstance(chamber, GasChamber):
+        head = crown
     return {
-        "bore": 1e3 * chamber.bore,
+        "bore": 1e3 * getattr(chamber, "bore", 0.0),
         "rod_diameter": 0.25 * bore,
         "mover_end": mover_end,
         "mover_outer_diameter": 1.15 * bore,

@@ -155,6 +155,7 @@ def pressure_loops(orbit: Run) -> str:
             dashed=side == "right",
         )
         for side, colour in (("left", LEFT), ("right", RIGHT))
+        if side in orbit.engine.gas_sides
     ]
     labels = raised(VOLUME.label), PRESSURE.label
     return chart(f"p-V loops of {orbit.engine.name}", loops, *labels, from_zero=True)

@@ -42,6 +42,10 @@ def _side(side: str, mm: dict[str, float]) -> list[str]:
     """Head, liner with its ports, bearing, spring, rod and piston of one side."""
     sign, radius, rod = SIDES[side], 0.5 * mm["bore"], 0.5 * mm["rod_diameter"]
     wall: dict[str, Any] = {"fill": "currentColor", "fill_opacity": 0.45}
+    coil = _coil(sign, mm)
+    if radius == 0.0:  # an open end
+        rest = _box(sign, 0.0, mm["crown"], -rod, rod, fill="currentColor", fill_opacity=0.6)
+        return [*_bearing(sign, mm, 3.0 * rod, wall), *coil, rest]
     parts = [_box(sign, mm["head"], mm["head"] + WALL, -radius - WALL, radius + WALL, **wall)]
     ported = not math.isnan(mm["port"])
     opens = mm["port"] if ported else mm["bearing"]
@@ -49,19 +53,31 @@ def _side(side: str, mm: dict[str, float]) -> list[str]:
     for y in (radius, -radius - WALL):
         parts.append(_box(sign, opens, mm["head"], y, y + WALL, **wall))
         parts.append(_box(sign, min(mm["bearing"], opens - gap), opens - gap, y, y + WALL, **wall))
-    for y in (rod, -radius - WALL):
-        parts.append(
-            _box(sign, mm["bearing"], mm["bearing"] + WALL, y, y + radius + WALL - rod, **wall)
-        )
-    x = sign * np.linspace(mm["mover_end"], mm["bearing"], 2 * TURNS + 1)
-    outer = max(0.8 * radius, rod + 3.0)
-    coil = np.where(np.arange(len(x)) % 2, outer, rod + 1.5)
-    for way in (1.0, -1.0):
-        parts.append(path(zip(x, way * coil, strict=True), stroke=YELLOW, stroke_width=1.2))
+    parts += [*_bearing(sign, mm, radius, wall), *coil]
     foot = mm["crown"] - 1e3 * formulas.SKIRT_LENGTH
     parts.append(_box(sign, 0.0, foot, -rod, rod, fill="currentColor", fill_opacity=0.6))
     piston = _box(sign, foot, mm["crown"], -radius, radius, fill=_COLOURS[side])
     return [*parts, tag("g", tag("title", f"{side} piston") + piston)]
+
+
+def _bearing(sign: float, mm: dict[str, float], radius: float, wall: dict[str, Any]) -> list[str]:
+    """Wall the rod passes through, above and below it, which holds the spring."""
+    rod, start = 0.5 * mm["rod_diameter"], mm["bearing"]
+    return [
+        _box(sign, start, start + WALL, y, y + radius + WALL - rod, **wall)
+        for y in (rod, -radius - WALL)
+    ]
+
+
+def _coil(sign: float, mm: dict[str, float]) -> list[str]:
+    """A spring between the mover and the bearing, above and below the rod."""
+    rod = 0.5 * mm["rod_diameter"]
+    x = sign * np.linspace(mm["mover_end"], mm["bearing"], 2 * TURNS + 1)
+    outer = max(0.4 * (mm["bore"] or mm["mover_outer_diameter"]), rod + 3.0)
+    y = np.where(np.arange(len(x)) % 2, outer, rod + 1.5)
+    return [
+        path(zip(x, way * y, strict=True), stroke=YELLOW, stroke_width=1.2) for way in (1.0, -1.0)
+    ]
 
 
 def _mover(mm: dict[str, float]) -> list[str]:

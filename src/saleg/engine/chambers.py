@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import NamedTuple
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
 from saleg.laws import (
     CFRIgnition,
@@ -33,7 +33,7 @@ from saleg.laws.base import (
     Wall,
 )
 from saleg.laws.usual import GAP, LENGTH
-from saleg.quantities import Quantities, quantity
+from saleg.quantities import Quantities, fields_of, quantity
 
 #: Ranges of what has been built, from a bore of 3 mm to ship engines and gas springs; a value
 #: outside is allowed but likely in another unit.
@@ -109,40 +109,30 @@ class ReferenceState(NamedTuple):
     clearance: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class Chamber(Quantities):
-    """What all chambers have in common.
+    """What stands at either end of the translator: a chamber with gas, or an open end.
 
-    Parameters
+    Attributes
     ----------
-    bore : float
-        Bore b [m].
     half_stroke : float
-        Neutral clearance length L [m]: crown to head when the translator is at its midpoint.
-    wall_temperature : float
-        Temperature of head, liner and crown [K].
+        Neutral clearance length L [m]: room for the crown when the translator is at its midpoint.
     head_gap : float
         Clearance at which the run ends with head contact [m].
-    leak, wall : Law
-        Gap past the rings, and what the temperature of the wall does.
     """
 
-    bore: float = quantity("m", low=0, open_low=True, usual=BORE)
-    half_stroke: float = quantity("m", low=0, open_low=True, usual=LENGTH)
-    wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0, usual=WALL)
-    head_gap: float = quantity("m", default=1e-4, low=0, open_low=True, usual=GAP)
-    leak: Leak = field(default_factory=NoLeak)
-    wall: Wall = field(default_factory=FixedWall)
+    half_stroke: float
+    head_gap: float
 
     @property
     def area(self) -> float:
-        """Area of the bore [m^2]."""
-        return math.pi * self.bore**2 / 4.0
+        """Area of the bore [m^2]; of an open end, whose gas nobody follows, none."""
+        return 0.0
 
     @property
     def laws(self) -> dict[str, Law]:
         """Laws of the chamber by slot; only a chamber that burns fuel has laws of combustion."""
-        return {slot: getattr(self, slot) for slot in CHAMBER_SLOTS if hasattr(self, slot)}
+        kind: Any = type(self)
+        return {slot: getattr(self, slot) for slot in _slots_of(kind)}
 
     @cached_property
     def states(self) -> frozenset[str]:
@@ -160,8 +150,82 @@ class Chamber(Quantities):
         raise NotImplementedError
 
 
+@lru_cache(maxsize=64)
+def _slots_of(kind: Any) -> tuple[str, ...]:
+    """Slots that chambers of a class have; looked up at every step of a search."""
+    names = {item.name for item in fields_of(kind)}
+    return tuple(slot for slot in CHAMBER_SLOTS if slot in names)
+
+
 @dataclass(frozen=True, kw_only=True)
-class CombustionChamber(Chamber):
+class GasChamber(Chamber):
+    """What all chambers that hold gas have in common.
+
+    Parameters
+    ----------
+    bore : float
+        Bore b [m].
+    half_stroke : float
+        Neutral clearance length L [m]: crown to head when the translator is at its midpoint.
+    wall_temperature : float
+        Temperature of head, liner and crown [K].
+    head_gap : float
+        Clearance at which the run ends with head contact [m].
+    back_area : float
+        Area on which a constant pressure acts behind the piston, against the chamber [m^2].
+    back_pressure : float
+        That pressure [Pa].
+    leak, wall : Law
+        Gap past the rings, and what the temperature of the wall does.
+    gas_properties : Law
+        Ratio of specific heats of its gas.
+    """
+
+    bore: float = quantity("m", low=0, open_low=True, usual=BORE)
+    half_stroke: float = quantity("m", low=0, open_low=True, usual=LENGTH)
+    wall_temperature: float = quantity("K", default=550.0, low=100.0, high=3000.0, usual=WALL)
+    head_gap: float = quantity("m", default=1e-4, low=0, open_low=True, usual=GAP)
+    back_area: float = quantity("m^2", default=0.0, low=0)
+    back_pressure: float = quantity("Pa", default=0.0, low=0)
+    leak: Leak = field(default_factory=NoLeak)
+    wall: Wall = field(default_factory=FixedWall)
+    gas_properties: GasProperties = field(default_factory=ChangGas)
+
+    @property
+    def area(self) -> float:
+        """Area of the bore [m^2]."""
+        return math.pi * self.bore**2 / 4.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenEnd(Chamber):
+    """The end of an engine that has one chamber only: its back, open to the surroundings.
+
+    The pressure of the surroundings acts on the bore of the chamber opposite. ``right=None`` of an
+    engine stands for ``OpenEnd()``.
+
+    Parameters
+    ----------
+    pressure : float
+        Pressure of the surroundings [Pa].
+    half_stroke : float
+        Room for the translator beyond its midpoint [m].
+    head_gap : float
+        What is left of it when the run ends with head contact [m].
+    """
+
+    pressure: float = quantity("Pa", default=1e5, low=0, open_low=True, usual=PRESSURE)
+    half_stroke: float = quantity("m", default=1.0, low=0, open_low=True, usual=LENGTH)
+    head_gap: float = quantity("m", default=1e-4, low=0, open_low=True, usual=GAP)
+
+    @property
+    def reference_state(self) -> ReferenceState:
+        """State of the surroundings."""
+        return ReferenceState(self.pressure, 300.0, self.half_stroke)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CombustionChamber(GasChamber):
     """What all chambers that burn fuel have in common.
 
     Parameters
@@ -174,7 +238,7 @@ class CombustionChamber(Chamber):
         1 if a charge that has not lit by its dead centre may still light itself later, while it is
         trapped; 0 if it may not [-].
     fuel : Fuel
-    gas_properties, heat_transfer, heat_release, ignition, gas_exchange, misfires : Law
+    heat_transfer, heat_release, ignition, gas_exchange, misfires : Law
         The laws in the chamber's slots.
     """
 
@@ -182,7 +246,6 @@ class CombustionChamber(Chamber):
     combustion_efficiency: float = quantity("-", default=0.95, low=0, high=1)
     late_ignition: float = quantity("-", default=0.0, low=0, high=1)
     fuel: Fuel = field(default_factory=Fuel)
-    gas_properties: GasProperties = field(default_factory=ChangGas)
     heat_transfer: HeatTransfer = field(default_factory=Hohenberg)
     heat_release: HeatRelease = field(default_factory=Wiebe)
     ignition: Ignition = field(default_factory=CFRIgnition)
@@ -241,7 +304,7 @@ class SealedCylinder(CombustionChamber):
 
 
 @dataclass(frozen=True, kw_only=True)
-class BounceChamber(Chamber):
+class BounceChamber(GasChamber):
     """A closed gas spring.
 
     Parameters
@@ -250,13 +313,12 @@ class BounceChamber(Chamber):
         Pressure with the translator at its midpoint [Pa].
     temperature : float
         Temperature there [K].
-    gas_properties, heat_transfer : Law
-        The laws in the chamber's slots.
+    heat_transfer : Law
+        What heat it loses to its wall.
     """
 
     pressure: float = quantity("Pa", default=1e5, low=0, open_low=True, usual=PRESSURE)
     temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0, usual=TEMPERATURE)
-    gas_properties: GasProperties = field(default_factory=ChangGas)
     heat_transfer: HeatTransfer = field(default_factory=NoHeatTransfer)
 
     @property

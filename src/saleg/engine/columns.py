@@ -265,7 +265,8 @@ def _fields_of(kind: Any) -> _Fields:
 
     A class that does something of its own when an object is made may not be written to.
     """
-    if getattr(kind, "__post_init__", None) not in (None, Quantities.__post_init__):
+    harmless = (None, Quantities.__post_init__, Engine.__post_init__)
+    if getattr(kind, "__post_init__", None) not in harmless:
         raise _Unlike(kind)
     numbers: list[str] = []
     ranges: list[tuple[str, Limits]] = []

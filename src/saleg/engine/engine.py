@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,9 @@ from saleg.engine.chambers import (
     CombustionChamber,
     Cylinder,
     Fuel,
+    GasChamber,
     Intake,
+    OpenEnd,
     Translator,
 )
 from saleg.engine.start import CompressedCharge, Start
@@ -27,7 +29,7 @@ from saleg.errors import InvalidEngine, SalegWarning
 from saleg.laws import Crankcase, Law, LinearLoad, LinearSprings, PortFlow, ViscousFriction
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
 from saleg.laws.contract import check_laws
-from saleg.quantities import Problem, is_number, problems, unusual
+from saleg.quantities import Problem, fields_of, is_number, problems, unusual
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,8 @@ class Engine:
     Parameters
     ----------
     translator : Translator
-    left, right : Cylinder, SealedCylinder or BounceChamber
+    left, right : Cylinder, SealedCylinder, BounceChamber or OpenEnd
+        None stands for an open end: an engine with one chamber, returned by its springs.
     springs, friction, alternator : Law
         The laws in the engine's slots.
     start : Start
@@ -66,6 +69,11 @@ class Engine:
     alternator: Alternator = field(default_factory=LinearLoad)
     start: Start = field(default_factory=CompressedCharge)
     name: str = "engine"
+
+    def __post_init__(self) -> None:
+        for side in ("left", "right"):
+            if getattr(self, side) is None:
+                object.__setattr__(self, side, OpenEnd())
 
     @classmethod
     def mirrored(cls, translator: Translator, chamber: Chamber, **slots: Any) -> Engine:
@@ -99,6 +107,30 @@ class Engine:
         return self.left, self.right
 
     @property
+    def gas_sides(self) -> tuple[str, ...]:
+        """Sides with a chamber that holds gas: "left", "right" or both."""
+        sides = zip(("left", "right"), self.chambers, strict=True)
+        return tuple(side for side, chamber in sides if isinstance(chamber, GasChamber))
+
+    @property
+    def piston_areas(self) -> tuple[float, float]:
+        """Area on which the pressure of either end acts [m^2]; of an open end, that opposite."""
+        left, right = self.left.area, self.right.area
+        only = left + right
+        if len(self.gas_sides) == 2:
+            return left, right
+        return only, only
+
+    @property
+    def back_force(self) -> float:
+        """Force of the constant pressures behind the pistons on the translator [N]."""
+        left, right = (
+            chamber.back_area * chamber.back_pressure if isinstance(chamber, GasChamber) else 0.0
+            for chamber in self.chambers
+        )
+        return right - left
+
+    @property
     def has_combustion(self) -> bool:
         """Whether at least one chamber burns fuel."""
         return any(isinstance(chamber, CombustionChamber) for chamber in self.chambers)
@@ -118,18 +150,20 @@ class Engine:
     @property
     def needs_motored_pressure(self) -> bool:
         """Whether a heat-transfer law looks at the motored pressure; it is integrated then."""
-        chambers: tuple[Any, Any] = self.chambers
-        return any(chamber.heat_transfer.needs_motored_pressure for chamber in chambers)
+        laws: list[Any] = [getattr(chamber, "heat_transfer", None) for chamber in self.chambers]
+        return any(law is not None and law.needs_motored_pressure for law in laws)
 
     @property
     def maximum_stroke(self) -> float:
         """Greatest geometrically possible stroke [m]: the clearances at the midpoint together.
 
-        Of a bounce chamber opposite a cylinder counts no more than the cylinder's own clearance:
-        what it has beyond that is room for its gas, not for the piston.
+        Of a bounce chamber, or an open end, opposite a cylinder counts no more than the cylinder's
+        own clearance: what it has beyond that is no room for the piston.
         """
         left, right = self.left.half_stroke, self.right.half_stroke
         burns = [isinstance(chamber, CombustionChamber) for chamber in self.chambers]
+        if not any(burns):
+            burns = [isinstance(chamber, GasChamber) for chamber in self.chambers]
         if burns == [True, False]:
             return left + least_of(left, right)
         if burns == [False, True]:
@@ -304,7 +338,8 @@ def _slot_problems(engine: Engine) -> list[Problem]:
         found += _kind_problem(getattr(engine, name), kind, name)
     for side, chamber in zip(("left", "right"), engine.chambers, strict=True):
         found += _kind_problem(chamber, Chamber, side)
-        for item in fields(chamber) if isinstance(chamber, Chamber) else ():
+        made: Any = type(chamber)
+        for item in fields_of(made) if isinstance(chamber, Chamber) else ():
             if item.name in _CHAMBER_PARTS:
                 part, kind = getattr(chamber, item.name), _CHAMBER_PARTS[item.name]
                 found += _kind_problem(part, kind, f"{side}.{item.name}")
@@ -324,7 +359,7 @@ def lengths_fit(engine: Engine) -> Any:
     for chamber in engine.chambers:
         gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
         fit = fit & (gap < chamber.half_stroke) & (gap < port) & (port < most)
-    for _, _, good, _, _ in _limits_of_flow(engine, most):
+    for _, _, good, _, _ in (*_limits_of_flow(engine, most), *_limits_of_backs(engine)):
         fit = fit & good
     return fit
 
@@ -346,7 +381,8 @@ def _geometry_problems(engine: Engine) -> list[Problem]:
             allowed = f"must be > head_gap ({gap:g} m) and < the maximum stroke ({most:g} m)"
             found.append(Problem(side + "port_closing", port, "m", allowed))
     if not found and all(_has_numbers(chamber) for chamber in engine.chambers):
-        for number, path, good, unit, allowed in _limits_of_flow(engine, most):
+        limits = (*_limits_of_flow(engine, most), *_limits_of_backs(engine))
+        for number, path, good, unit, allowed in limits:
             if not good and number < len(sides):
                 path = sides[number] + path
                 found.append(Problem(path, paths.get(engine, path), unit, allowed))
@@ -354,9 +390,36 @@ def _geometry_problems(engine: Engine) -> list[Problem]:
 
 
 def _has_numbers(chamber: Chamber) -> bool:
-    """Whether all that ports and crankcase are made of are numbers."""
-    laws = [getattr(chamber, slot) for slot in ("gas_exchange", "supply") if hasattr(chamber, slot)]
-    return all(is_number(getattr(law, item.name)) for law in laws for item in fields(law))
+    """Whether all that ports, crankcase and the back of the piston are made of are numbers."""
+    parts = [
+        getattr(chamber, slot) for slot in ("gas_exchange", "supply") if hasattr(chamber, slot)
+    ]
+    kinds: list[Any] = [type(part) for part in parts]
+    numbers = [
+        getattr(part, item.name)
+        for part, kind in zip(parts, kinds, strict=True)
+        for item in fields_of(kind)
+    ]
+    if isinstance(chamber, GasChamber):
+        numbers += [chamber.back_area, chamber.back_pressure]
+    return all(map(is_number, numbers))
+
+
+def _limits_of_backs(engine: Engine) -> Iterator[tuple[int, str, Any, str, str]]:
+    """Limits of pressures behind the pistons, as :func:`_limits_of_flow` has them."""
+    for side, chamber in enumerate(engine.chambers):
+        opposite = engine.chambers[1 - side]
+        if isinstance(chamber, OpenEnd):
+            allowed = "must have a chamber with gas opposite"
+            yield side, "pressure", isinstance(opposite, GasChamber), "Pa", allowed
+        elif isinstance(opposite, OpenEnd):
+            allowed = "must be 0 opposite an open end, whose pressure acts behind the piston"
+            kept = chamber.back_pressure == 0.0  # type: ignore[attr-defined]
+            yield side, "back_pressure", kept, "Pa", allowed
+        else:
+            area, pressure = chamber.back_area, chamber.back_pressure  # type: ignore[attr-defined]
+            kept = (area > 0.0) | (pressure == 0.0)
+            yield side, "back_area", kept, "m^2", "must be > 0 with a back_pressure"
 
 
 def _limits_of_flow(engine: Engine, most: Any) -> Iterator[tuple[int, str, Any, str, str]]:

@@ -20,6 +20,8 @@ from saleg.quantities import Quantities, quantity
 COMPRESSION_EXPONENT = 1.35
 #: Halvings of the range in which an engine rests: to the last digits of a number.
 HALVINGS = 60
+#: Mass behind an open end [kg]: nobody follows it, but its logarithm is taken.
+NO_GAS = 1e-300
 
 
 class Contents(NamedTuple):
@@ -89,8 +91,8 @@ class Start(Quantities):
 class CompressedCharge(Start):
     """At rest near a head, with a compressed charge there, burning or not.
 
-    The charge stands at ``p_in (d_po/d)^1.35``. If the chamber at that end burns no fuel but the
-    other one does, the mirror image is meant. A sealed cylinder has its own exponent.
+    The charge stands at ``p_in (d_po/d)^1.35``; a sealed cylinder has its own exponent. If that end
+    is open, or burns no fuel but the other one does, the mirror image is meant.
 
     Parameters
     ----------
@@ -106,7 +108,7 @@ class CompressedCharge(Start):
     def initial(self, engine: Any) -> Initial:
         """State of the engine at time zero."""
         side = 0 if self.position < 0.0 else 1
-        if _burns_fuel(engine.chambers[1 - side]) and not _burns_fuel(engine.chambers[side]):
+        if _outranks(engine.chambers[1 - side], engine.chambers[side]):
             side = 1 - side
         charged = engine.chambers[side]
         length = charged.half_stroke
@@ -156,8 +158,8 @@ class MidpointVelocity(Start):
 class AtRest(Start):
     """At rest at the midpoint, both cylinders closed and filled at the intake's state (Ch. 5).
 
-    A cylinder opposite a gas spring rests where the spring balances the air that its ports have
-    enclosed, which is far from the midpoint. There is no fuel in a cylinder: nothing is metered
+    A cylinder alone, or opposite a gas spring, rests where springs balance the air that its ports
+    have enclosed, which is far from the midpoint. There is no fuel in a cylinder: nothing is metered
     before the ports have opened once.
     """
 
@@ -188,6 +190,8 @@ def contents(chamber: Any, displacement: float, burning: bool = False) -> Conten
     height = chamber.half_stroke + displacement
     full = chamber.reference_state
     squeeze = full.clearance / height
+    if not _holds_gas(chamber):
+        return Contents(True, False, False, full.pressure, NO_GAS, 0.0, 0.0, 0.0)
     if not _burns_fuel(chamber):
         pressure = full.pressure * adiabatic_rise(chamber, squeeze)
         return Contents(False, False, False, pressure, charge_mass(chamber), 0.0, 0.0, 0.0)
@@ -288,9 +292,11 @@ def _resting_position(engine: Any) -> float:
     """Position at which the forces of gas and springs balance [m]; short of a head at the most."""
     left, right = engine.left, engine.right
     low, high = 2.0 * left.head_gap - left.half_stroke, right.half_stroke - 2.0 * right.head_gap
+    areas = engine.piston_areas
     for _ in range(HALVINGS):
         x = 0.5 * (low + high)
-        force = left.area * contents(left, x).pressure - right.area * contents(right, -x).pressure
+        force = areas[0] * contents(left, x).pressure - areas[1] * contents(right, -x).pressure
+        force += engine.back_force
         if force + engine.springs.force(Motion(0.0, x, 0.0, 0.0)) > 0.0:
             low = x
         else:
@@ -303,12 +309,21 @@ def _stored_energy(engine: Any, charged: Chamber, x: float, held: Contents, lit:
     springs = engine.springs.energy(Motion(0.0, x, 0.0, 0.0))
     springs -= engine.springs.energy(Motion(0.0, 0.0, 0.0, 0.0))
     height = charged.half_stroke - abs(x)
-    volume = math.pi * charged.bore**2 / 4.0 * height
+    volume = charged.area * height
     full = charged.reference_state.clearance
     n = COMPRESSION_EXPONENT - 1.0
     gas = held.pressure * volume / n * max(1.0 - (height / full) ** n, 0.0)
     heat = held.fuel * charged.fuel.lower_heating_value if lit else 0.0  # type: ignore[attr-defined]
     return max(springs + gas + 0.4 * heat, 1e-12)
+
+
+def _outranks(one: Any, other: Any) -> bool:
+    """Whether a charge is rather compressed in one chamber than in another."""
+    return (_burns_fuel(one), _holds_gas(one)) > (_burns_fuel(other), _holds_gas(other))
+
+
+def _holds_gas(chamber: Any) -> bool:
+    return hasattr(chamber, "gas_properties")
 
 
 def _burns_fuel(chamber: Any) -> bool:

@@ -20,6 +20,7 @@ from saleg.engine.chambers import (
     Cylinder,
     Fuel,
     Intake,
+    OpenEnd,
     SealedCylinder,
     Translator,
 )
@@ -38,7 +39,7 @@ BASES = (*SLOTS.values(), FlowExchange)
 #: Laws a file does not name: what stands in their slots if nothing is said.
 UNSAID = (NoLeak, FixedWall, Plenum)
 CHAMBERS: dict[str, type] = {
-    kind.__name__: kind for kind in (Cylinder, SealedCylinder, BounceChamber)
+    kind.__name__: kind for kind in (Cylinder, SealedCylinder, BounceChamber, OpenEnd)
 }
 PARTS: dict[str, type] = {"translator": Translator, "intake": Intake, "fuel": Fuel}
 SIDES = ("cylinder", "left", "right")

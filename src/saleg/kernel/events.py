@@ -48,7 +48,7 @@ def event_is_possible(E, C, event):
         return c.mode == CLOSED and c.armed > DISARMED
     if event < HEAD:
         return c.mode != OPEN and c.ln_breakpoint > 0.0
-    return outward < 0.0 and c.mode != OPEN
+    return outward < 0.0 and (c.mode != OPEN or c.port < c.head_gap)
 
 
 @inline

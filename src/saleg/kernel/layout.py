@@ -173,6 +173,7 @@ ENGINE_RECORD = np.dtype(
             "mass_fixed",
             "mass_per_stroke",
             "mass_per_work",
+            "back_force",
         )
     ]
     # What the stroke just ended showed, and what is commanded (kernel/control.py):

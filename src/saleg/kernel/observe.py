@@ -46,7 +46,7 @@ def observe(P, E, C, y, dy, motored, row):
         row.heat_loss[side] = dy[N_STATE + HEAT_LOST + side]
         row.ignition[side] = y[IGNITION + side]
         row.mode[side] = C[side].mode
-    row.spring_force = springs_force(P, motion)
+    row.spring_force = springs_force(P, motion) + E.back_force
     row.friction_force = friction_force(P, E.friction_held, motion)
     row.alternator_force, _ = alternator_action(P, E, E.t, motion)
     row.electrical_power = dy[N_STATE + ELECTRICAL_ENERGY]

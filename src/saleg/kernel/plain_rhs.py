@@ -201,7 +201,7 @@ def translator(P, E, C, t, y, p_left, p_right, dy):
     load = alternator_force(P, E.load_weight, motion)
     friction = friction_force(P, E.friction_held, motion)
     power = alternator_electrical_power(P, E.load_weight, motion)
-    push = C[0].area * p_left - C[1].area * p_right
+    push = C[0].area * p_left - C[1].area * p_right + E.back_force
     if has_crankcase(C, 0) or has_crankcase(C, 1):
         push += push_of_crankcase(P, C, 0, y) + push_of_crankcase(P, C, 1, y)
     dy[POSITION] = v

@@ -340,7 +340,7 @@ def write_rates(P, E, C, t, y, dy, motored):
     """The same, folded into the caller."""
     left = chamber_rates(P, E, C, LEFT, t, y, motored)
     right = chamber_rates(P, E, C, RIGHT, t, y, motored)
-    force = gas_force(C, left, right)
+    force = gas_force(C, left, right) + E.back_force
     if CRANKCASE_IS_WANTED:
         force += crankcase_force(P, C, LEFT, y) + crankcase_force(P, C, RIGHT, y)
     rates_of_motion(P, E, t, y, dy, force)

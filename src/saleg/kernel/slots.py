@@ -150,7 +150,8 @@ def supply_inlet_area(P: Any, side: int, rise: float) -> float:
 
 def wall_temperature_rate(P: Any, side: int, temperature: float, heat: float) -> float:
     """Rate of the temperature of the wall."""
-    return _chamber(P, side).wall.temperature_rate(temperature, heat)
+    chamber = _chamber(P, side)  # an open end has no wall
+    return chamber.wall.temperature_rate(temperature, heat) if hasattr(chamber, "wall") else 0.0
 
 
 def springs_force(P: Any, motion: Motion) -> float:

@@ -321,6 +321,7 @@ def write_stroke(P, E, C, y, peaks, row):
     row.peak_acceleration = peaks[PEAK_ACCELERATION]
     row.peak_velocity = peaks[PEAK_VELOCITY]
     row.spring_energy = springs_energy(P, Motion(E.t, y[X], y[V], E.direction))
+    row.spring_energy -= E.back_force * y[X]
     for side in range(2):
         c = C[side]
         row.heat_released[side] = y[N_STATE + HEAT_RELEASED + side]

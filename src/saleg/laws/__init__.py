@@ -51,7 +51,7 @@ from saleg.laws.friction import (
     ViscousFriction,
 )
 from saleg.laws.gas_exchange import InstantExchange, PortFlow
-from saleg.laws.gas_properties import ChangGas, ConstantGamma
+from saleg.laws.gas_properties import ChangGas, ConstantGamma, MixtureGas
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
     Annand,
@@ -73,7 +73,14 @@ from saleg.laws.ignition import (
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
-from saleg.laws.springs import EndStops, LinearSprings, PreloadedSprings, ProgressiveSprings
+from saleg.laws.springs import (
+    AirSprings,
+    EndStops,
+    LinearSprings,
+    OneSidedSprings,
+    PreloadedSprings,
+    ProgressiveSprings,
+)
 from saleg.laws.supply import Crankcase, Plenum
 from saleg.laws.walls import FixedWall, LumpedWall
 
@@ -82,6 +89,7 @@ accept_earlier_names()
 __all__ = [
     "ActuatorLaw",
     "Actuators",
+    "AirSprings",
     "Alternator",
     "AlwaysMotored",
     "Annand",
@@ -134,6 +142,7 @@ __all__ = [
     "LumpedWall",
     "MakeUpValve",
     "Misfires",
+    "MixtureGas",
     "Motion",
     "MotorControl",
     "NeverMotored",
@@ -142,6 +151,7 @@ __all__ = [
     "NoHeatTransfer",
     "NoLeak",
     "NoMisfires",
+    "OneSidedSprings",
     "Plenum",
     "PolytropicLoss",
     "PortFlow",

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from saleg.laws.base import GasProperties, Validity
 from saleg.laws.usual import GAS_CONSTANT
-from saleg.quantities import quantity
+from saleg.quantities import quantity, series
 
 # Gauss-Legendre abscissae and weights on [-1, 1]: twelve points integrate c_v of Eq. 49 over its
 # whole range to rounding error.
@@ -34,6 +35,22 @@ def chang_energy(gas_constant: float, T: float) -> float:
     for i in range(12):
         total += WEIGHTS[i] / (chang_gamma(middle + half * NODES[i]) - 1.0)
     return gas_constant * half * total
+
+
+#: Temperature at which the polynomials of a mixture change, and where its energy is zero [K].
+POLYNOMIALS_CHANGE = 1000.0
+STANDARD = 298.15
+
+
+def polynomial(a: Sequence[float], T: float) -> float:
+    """Polynomial of the fourth degree in the temperature."""
+    return a[0] + T * (a[1] + T * (a[2] + T * (a[3] + T * a[4])))
+
+
+def integral(a: Sequence[float], T: float) -> float:
+    """Integral of the polynomial from 0 K [K]."""
+    rest = a[1] / 2.0 + T * (a[2] / 3.0 + T * (a[3] / 4.0 + T * a[4] / 5.0))
+    return T * (a[0] + T * rest)
 
 
 @dataclass(frozen=True)
@@ -99,3 +116,49 @@ class ConstantGamma(GasProperties):
     def internal_energy(self, T: float) -> float:
         """Specific internal energy above 0 K [J/kg]."""
         return self.gas_constant * T / (self.value - 1.0)
+
+
+@dataclass(frozen=True)
+class MixtureGas(GasProperties):
+    """Ideal gas of fixed composition by NASA polynomials: ``cp/R = a1 + a2 T + ... + a5 T^4``.
+
+    :mod:`saleg.fuels` makes it from a fuel and its equivalence ratio. The coefficients are those of
+    the species, by moles; 200 K to 6000 K (McBride, Gordon and Reno, NASA TM-4513). The defaults
+    stand for dry air.
+
+    Parameters
+    ----------
+    gas_constant : float
+        Specific gas constant R [J/kg/K].
+    low, high : tuple of float, shape (5,)
+        Coefficients a1 to a5 below and above 1000 K [-, 1/K, ... 1/K^4].
+    """
+
+    valid_for = (Validity("temperature", 200.0, 6000.0, "NASA TM-4513"),)
+
+    gas_constant: float = quantity(
+        "J/kg/K", default=288.19, low=0, open_low=True, usual=GAS_CONSTANT
+    )
+    low: tuple[float, ...] = series(
+        "-", default=(3.58383, -7.27248e-4, 1.671434e-6, -1.101983e-10, -4.313878e-13), at_least=5
+    )
+    high: tuple[float, ...] = series(
+        "-", default=(3.101397, 1.241326e-3, -4.187908e-07, 6.641169e-11, -3.912507e-15), at_least=5
+    )
+
+    def gamma(self, T: float) -> float:
+        """Ratio of specific heats [-]."""
+        cp = polynomial(self.low, T) if T < POLYNOMIALS_CHANGE else polynomial(self.high, T)
+        return cp / (cp - 1.0)
+
+    def breakpoint(self) -> float:
+        """Temperature at which gamma is not smooth [K]: where the polynomials change."""
+        return POLYNOMIALS_CHANGE
+
+    def internal_energy(self, T: float) -> float:
+        """Specific internal energy above 298.15 K [J/kg]."""
+        cold = min(T, POLYNOMIALS_CHANGE)
+        total = integral(self.low, cold) - integral(self.low, STANDARD)
+        if T > POLYNOMIALS_CHANGE:
+            total += integral(self.high, T) - integral(self.high, POLYNOMIALS_CHANGE)
+        return self.gas_constant * (total - (T - STANDARD))

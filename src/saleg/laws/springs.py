@@ -9,7 +9,7 @@ from typing import ClassVar
 from saleg.laws.arguments import Motion
 from saleg.laws.base import Springs
 from saleg.laws.interpolation import linear, linear_integral, next_point
-from saleg.laws.usual import FORCE, LENGTH, STIFFNESS, STOP_STIFFNESS
+from saleg.laws.usual import FORCE, GAS_PRESSURE, LENGTH, STIFFNESS, STOP_STIFFNESS
 from saleg.quantities import quantity, series
 
 
@@ -125,6 +125,88 @@ class PreloadedSprings(Springs):
         """Next position at which a spring touches or lifts off [m]."""
         reach = self.preload / self.stiffness if self.stiffness > 0.0 else math.inf
         return next_point(x, direction, (-reach, reach))
+
+
+@dataclass(frozen=True)
+class OneSidedSprings(Springs):
+    """A spring at either end that only pushes, from the position on at which it touches.
+
+    ``F = k_l max(x_l - x, 0) - k_r max(x - x_r, 0)``; one alone has the other's stiffness 0.
+
+    Parameters
+    ----------
+    left_stiffness, right_stiffness : float
+        Stiffness k of the spring at that end [N/m].
+    left_contact, right_contact : float
+        Position of the translator at which it begins to push [m].
+    """
+
+    left_stiffness: float = quantity("N/m", default=0.0, low=0, usual=STIFFNESS)
+    right_stiffness: float = quantity("N/m", default=30e3, low=0, usual=STIFFNESS)
+    left_contact: float = quantity("m", default=0.0)
+    right_contact: float = quantity("m", default=0.0)
+
+    def force(self, motion: Motion) -> float:
+        """Force on the translator [N]."""
+        left = self.left_stiffness * max(self.left_contact - motion.x, 0.0)
+        return left - self.right_stiffness * max(motion.x - self.right_contact, 0.0)
+
+    def energy(self, motion: Motion) -> float:
+        """Energy stored in both springs [J]."""
+        left = max(self.left_contact - motion.x, 0.0)
+        right = max(motion.x - self.right_contact, 0.0)
+        return 0.5 * (self.left_stiffness * left * left + self.right_stiffness * right * right)
+
+    def next_breakpoint(self, x: float, direction: float) -> float:
+        """Next position at which a spring touches or lifts off [m]."""
+        left = next_point(x, direction, (self.left_contact,))
+        right = next_point(x, direction, (self.right_contact,))
+        return right if direction * (right - left) < 0.0 else left
+
+
+def _rooms(s: float) -> tuple[float, float]:
+    """Volumes left and right over those at the midpoint; a trial step may go beyond their ends."""
+    return max(1.0 + s, 1e-6), max(1.0 - s, 1e-6)
+
+
+@dataclass(frozen=True)
+class AirSprings(Springs):
+    """Two sealed volumes of air that push against each other, beside the cylinders (3.2, 4.4).
+
+    ``F = A p [(L/(L+x))^n - (L/(L-x))^n]``: each is compressed along a polytrope and loses nothing.
+
+    Parameters
+    ----------
+    area : float
+        Area of each piston A [m^2].
+    length : float
+        Length L of each volume with the translator at its midpoint [m]; the translator must stay
+        within.
+    pressure : float
+        Pressure p in both there [Pa].
+    exponent : float
+        Polytropic exponent n [-].
+    """
+
+    mirrors: ClassVar[bool] = True
+
+    area: float = quantity("m^2", default=3e-3, low=0)
+    length: float = quantity("m", default=0.07, low=0, open_low=True, usual=LENGTH)
+    pressure: float = quantity("Pa", default=1e5, low=0, usual=GAS_PRESSURE)
+    exponent: float = quantity("-", default=1.4, low=1, open_low=True)
+
+    def force(self, motion: Motion) -> float:
+        """Force on the translator [N]."""
+        left, right = _rooms(motion.x / self.length)
+        n = self.exponent
+        return self.area * self.pressure * (left**-n - right**-n)
+
+    def energy(self, motion: Motion) -> float:
+        """Energy stored in both volumes [J], above that at the midpoint."""
+        left, right = _rooms(motion.x / self.length)
+        m = self.exponent - 1.0
+        rise = left**-m + right**-m - 2.0
+        return self.area * self.pressure * self.length / m * rise
 
 
 @dataclass(frozen=True)

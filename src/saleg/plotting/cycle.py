@@ -105,6 +105,11 @@ class Cycle:
             values = values - values[0]
         return quantity.scale * values
 
+    @property
+    def sides(self) -> tuple[str, ...]:
+        """Sides with a chamber that holds gas."""
+        return self.run.engine.gas_sides
+
     def rows_of(self, events: pd.DataFrame) -> np.ndarray:
         """Rows of the history just before events."""
         return np.searchsorted(self.history["t"].to_numpy(), events["t"].to_numpy())
@@ -118,7 +123,7 @@ class Cycle:
         """Whether the motored pressure was integrated and differs from the actual one."""
         return any(
             bool((np.abs(self(MOTORED, side) / self(PRESSURE, side) - 1.0) > SAME_PRESSURE).any())
-            for side in COLOURS
+            for side in self.sides
         )
 
 
@@ -211,12 +216,13 @@ def draw_sides(
     """Curves of both chambers with their events, and of the motored pressure if there is one."""
     place, dotted = cycle.place, motored and cycle.has_motored_pressure()
     looks = looks if place.alone else COINCIDING
+    looks = {side: looks[side] for side in cycle.sides}
     for side, look in looks.items():
         x, colour = cycle(across, side), place.sides[side]
         if dotted:
             _draw_motored(ax, cycle, x, side)
         line: dict[str, Any] = {"linestyle": look.line, "linewidth": look.width}
-        text = side if place.alone else place.name if side == "left" else f"_{place.name}"
+        text = side if place.alone else place.name if side == cycle.sides[0] else f"_{place.name}"
         ax.plot(x, cycle(up, side), color=colour, label=text, **line)
     if not place.alone:
         for side, look in looks.items():

@@ -91,7 +91,8 @@ class Film:
             mm = dimensions(self.engine, side)
             self.moving += springs(self.machine, mm, sign, shift)
             self.moving += piston(self.machine, mm, sign, shift, COLOURS[side])
-            self.moving.append(self._gas(mm, side, shift, frame))
+            if side in self.engine.gas_sides:
+                self.moving.append(self._gas(mm, side, shift, frame))
         self.moving += mover(self.machine, dimensions(self.engine, "left"), shift)
         for cursor in self.cursors:
             cursor(frame)
@@ -100,7 +101,8 @@ class Film:
         """Gas of one chamber, the darker the hotter."""
         from matplotlib import colormaps
 
-        max_temperature = max(float(self.history[f"T_{name}"].max()) for name in SIDES)
+        sides = self.engine.gas_sides
+        max_temperature = max(float(self.history[f"T_{name}"].max()) for name in sides)
         share = self.history[f"T_{side}"].iloc[frame] / max_temperature
         colour = colormaps["YlOrRd"](0.9 * share)
         crown, head = SIDES[side] * mm["crown"] + shift, SIDES[side] * mm["head"]
@@ -132,7 +134,8 @@ class Film:
 
     def _draw_pressures(self, ax: Axes, whole: pd.DataFrame, across: Quantity) -> None:
         """Pressures of both sides over time or volume, with a dot where they are now."""
-        for side, colour in COLOURS.items():
+        for side in self.engine.gas_sides:
+            colour = COLOURS[side]
             column = f"{across.column}_{side}" if across.sided else across.column
             start = 0.0 if across.sided else float(whole["t"].iloc[0])
             look = COINCIDING[side]

@@ -39,6 +39,12 @@ def box(ax: Axes, x: float, y: float, width: float, height: float, **look: Any) 
 def housing(ax: Axes, mm: dict[str, float], side: float) -> None:
     """Head, liner with its ports, and bearing of one side; no ports where ``port`` is NaN."""
     radius, look = 0.5 * mm["bore"], {"color": HOUSING, "linewidth": 0.0}
+    rod = 0.5 * mm["rod_diameter"]
+    if radius == 0.0:  # an open end has its bearing only
+        radius = 3.0 * rod
+        for y in (rod, -radius - WALL):
+            box(ax, side * mm["bearing"], y, side * BEARING, radius + WALL - rod, **look)
+        return
     box(ax, side * mm["head"], -radius - WALL, side * WALL, 2 * (radius + WALL), **look)
     width = min(0.06 * mm["head"], 3 * WALL)
     ported = not math.isnan(mm["port"])
@@ -51,7 +57,6 @@ def housing(ax: Axes, mm: dict[str, float], side: float) -> None:
             edge = side * (port - width)
             box(ax, edge, y, side * width, WALL, color="white", zorder=3)
             box(ax, edge, y, side * width, WALL, ec=HOUSING, fc="none", zorder=4)
-    rod = 0.5 * mm["rod_diameter"]
     for y in (rod, -radius - WALL):
         box(ax, side * mm["bearing"], y, side * BEARING, radius + WALL - rod, **look)
 
@@ -60,7 +65,7 @@ def springs(ax: Axes, mm: dict[str, float], side: float, shift: float = 0.0) -> 
     """A spring between the mover and the bearing, above and below the rod."""
     x = np.linspace(side * mm["mover_end"] + shift, side * mm["bearing"], 2 * TURNS + 1)
     rod = 0.5 * mm["rod_diameter"]
-    outer = max(0.8 * 0.5 * mm["bore"], rod + 3.0)
+    outer = max(0.4 * (mm["bore"] or mm["mover_outer_diameter"]), rod + 3.0)
     y = np.where(np.arange(len(x)) % 2, outer, rod + 1.5)
     look: dict[str, Any] = {"color": SPRING_COLOUR, "linewidth": 1.2, "zorder": 1}
     return [ax.plot(x, sign * y, **look)[0] for sign in (-1.0, 1.0)]
@@ -73,6 +78,8 @@ def piston(
     rod, radius = 0.5 * mm["rod_diameter"], 0.5 * mm["bore"]
     skirt = 1e3 * formulas.SKIRT_LENGTH
     look: dict[str, Any] = {"fc": colour, "ec": TRANSLATOR_COLOUR, "linewidth": 0.6, "zorder": 2}
+    if radius == 0.0:
+        return [box(ax, shift, -rod, side * mm["crown"], 2 * rod, **look)]
     foot = side * (mm["crown"] - skirt)
     return [
         box(ax, shift, -rod, foot, 2 * rod, **look),

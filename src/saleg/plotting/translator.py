@@ -72,7 +72,7 @@ def forces(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     acceleration, drawn as inertia (Figure 93 of the thesis).
     """
     history, engine, place = cycle.history, cycle.run.engine, cycle.place
-    left, right = (math.pi * chamber.bore**2 / 4.0 for chamber in engine.chambers)
+    left, right = engine.piston_areas
     time = cycle(TIME)
     zero_lines(ax, y=True)
     for label, force, colour, line in (

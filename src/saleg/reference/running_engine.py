@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import CombustionChamber, Cylinder, Engine, SealedCylinder
+from saleg.engine import CombustionChamber, Cylinder, Engine, GasChamber, SealedCylinder
 from saleg.kernel import layout
 from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, ENERGY, is_held_open
 from saleg.kernel.plain_rhs import (
@@ -39,7 +39,7 @@ from saleg.reference.states import (
     ChamberState,
     EngineState,
     StrokeTotals,
-    chamber_state,
+    chamber_states,
     stroke_before,
 )
 from saleg.simulation.initial_state import ratings
@@ -112,12 +112,10 @@ class RunningEngine:
         y[POSITION], y[VELOCITY] = start.x, start.v
         y[PRESSURE : PRESSURE + 2] = [held.pressure for held in contents]
         y[MOTORED_PRESSURE : MOTORED_PRESSURE + 2] = y[PRESSURE : PRESSURE + 2]
-        chambers = [
-            chamber_state(chamber, held, sign, start.x)
-            for chamber, held, sign in zip(engine.chambers, contents, (1.0, -1.0), strict=True)
-        ]
+        chambers = chamber_states(engine, start)
         mass = float(engine.translator.mass)
-        machine = EngineState(mass, float(motored), start.stroke, start.mean_piston_speed)
+        speed = start.mean_piston_speed
+        machine = EngineState(mass, engine.back_force, float(motored), start.stroke, speed)
         totals = [StrokeTotals(), StrokeTotals()]
         x = start.x if start.at_dead_centre else math.nan
         self = cls(engine, 0.0, y, machine, chambers, totals, x)
@@ -162,10 +160,7 @@ class RunningEngine:
 
     def beyond_port(self, side: int) -> float:
         """Distance of the crown beyond its ports [m]; minus infinity without ports."""
-        chamber = self.engine.chambers[side]
-        if not isinstance(chamber, Cylinder):
-            return -math.inf
-        return self.clearance(side) - chamber.port_closing
+        return self.clearance(side) - self.chambers[side].port
 
     def next_corner(self, side: int) -> float:
         """Clearance at which an area of the ports next has a corner [m]; infinite if none has."""
@@ -179,17 +174,18 @@ class RunningEngine:
 
     def temperature(self, side: int) -> float:
         """Temperature [K]; that of the intake while open ports hold it there."""
-        chamber = self.engine.chambers[side]
         if is_held_open(self.chambers, side):
-            assert isinstance(chamber, Cylinder)
-            return chamber.intake.temperature
+            return self.chambers[side].intake_temperature
         return self.gas(side).T
 
     def internal_energy(self, side: int) -> float:
         """Internal energy of the charge [J], and of the gas in its crankcase."""
         if self.chambers[side].breathes:
             return float(self.y[ENERGY + side] + self.y[CRANKCASE_ENERGY + side])
-        law = self.engine.chambers[side].gas_properties  # type: ignore[attr-defined]
+        chamber = self.engine.chambers[side]
+        if not isinstance(chamber, GasChamber):
+            return 0.0
+        law = chamber.gas_properties
         return float(self.chambers[side].mass * law.internal_energy(self.temperature(side)))
 
     def burnt_so_far(self, side: int) -> float:
@@ -462,7 +458,8 @@ class RunningEngine:
             row[f"peak_{name}"] = self.peaks[first : first + 2]
         row["peak_velocity"] = self.peaks[layout.PEAK_VELOCITY]
         row["peak_acceleration"] = self.peaks[layout.PEAK_ACCELERATION]
-        row["spring_energy"] = self.engine.springs.energy(motion)
+        behind = self.machine.back_force * x
+        row["spring_energy"] = self.engine.springs.energy(motion) - behind
         row["equivalence_ratio"], row["intake_temperature"] = ratings(self.engine)
         for side in (0, 1):
             for name, value in vars(self.totals[side]).items():

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import Engine
+from saleg.engine import Engine, OpenEnd
 from saleg.kernel import layout
 from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, is_held_open, mass_in
 from saleg.kernel.plain_rhs import (
@@ -208,7 +208,8 @@ def possible_events(running: RunningEngine) -> list[Event]:
             events.append(Event(_beyond(c, corner), direction * c.sign, "corner", side))
         if c.armed > layout.DISARMED:
             events.append(Event(_unlit(side), 1.0, "ignition", side))
-        if not is_open and not running.is_expanding(side):
+        closes = not isinstance(chamber, OpenEnd)
+        if not (is_open and closes) and not running.is_expanding(side):
             events.append(Event(_beyond(c, chamber.head_gap), -1.0, "head", side))
     return events
 

@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
-from saleg.engine import Chamber, CombustionChamber, Cylinder, Engine, SealedCylinder
+from saleg.engine import (
+    Chamber,
+    CombustionChamber,
+    Cylinder,
+    Engine,
+    GasChamber,
+    OpenEnd,
+    SealedCylinder,
+)
 from saleg.engine.start import Contents, Initial
 from saleg.kernel import layout
 from saleg.laws.arguments import Stroke
@@ -19,6 +27,8 @@ class EngineState:
     ----------
     mass : float
         Moving mass [kg].
+    back_force : float
+        Of the constant pressures behind the pistons [N].
     motored : float
         1 to integrate the motored pressures as well.
     stroke, mean_piston_speed : float
@@ -30,6 +40,7 @@ class EngineState:
     """
 
     mass: float
+    back_force: float
     motored: float
     stroke: float
     mean_piston_speed: float
@@ -136,7 +147,31 @@ class StrokeTotals:
     combustion_duration: float = 0.0
 
 
-def chamber_state(chamber: Chamber, held: Contents, sign: float, x: float) -> ChamberState:
+def chamber_states(engine: Engine, start: Initial) -> list[ChamberState]:
+    """Both chambers with the contents their start law gave them."""
+    held = {"left": (start.left, 1.0), "right": (start.right, -1.0)}
+    states = {
+        side: _chamber_state(chamber, *held[side], start.x)
+        for side, chamber in zip(held, engine.chambers, strict=True)
+        if isinstance(chamber, GasChamber)
+    }
+    for side, chamber in zip(held, engine.chambers, strict=True):
+        if isinstance(chamber, OpenEnd):
+            states[side] = _open_end(chamber, max(engine.piston_areas), held[side][1])
+    return [states["left"], states["right"]]
+
+
+def _open_end(end: OpenEnd, area: float, sign: float) -> ChamberState:
+    """The surroundings behind a piston: no gas to follow, its pressure is always the same."""
+    state = ChamberState(**dict.fromkeys((field.name for field in fields(ChamberState)), 0.0))
+    state.sign, state.area, state.half_stroke = sign, area, end.half_stroke
+    state.mode, state.intake_pressure = layout.OPEN, end.pressure
+    state.intake_temperature = end.reference_state.temperature
+    state.mass = state.mass_lit = state.gas_constant = 1.0  # divided by, never used
+    return state
+
+
+def _chamber_state(chamber: GasChamber, held: Contents, sign: float, x: float) -> ChamberState:
     """Chamber with the contents its start law gave it."""
     area = math.pi * chamber.bore**2 / 4.0
     p, T, full = chamber.reference_state
@@ -152,7 +187,7 @@ def chamber_state(chamber: Chamber, held: Contents, sign: float, x: float) -> Ch
         area=area,
         half_stroke=chamber.half_stroke,
         wall_temperature=chamber.wall_temperature,
-        gas_constant=chamber.gas_properties.gas_constant,  # type: ignore[attr-defined]
+        gas_constant=chamber.gas_properties.gas_constant,
         mass=held.mass,
         fuel=held.fuel,
         air=held.air,

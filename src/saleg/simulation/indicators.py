@@ -156,8 +156,7 @@ def _inverted_work(chamber: Chamber, inward: np.ndarray, outward: np.ndarray, si
         return 0.0  # the ports never closed
     grid = np.linspace(0.0, min(compression.w[-1], expansion.w[-1]), ADVERSE_POINTS)
     excess = np.maximum(compression(grid) - expansion(grid), 0.0)
-    area = math.pi * chamber.bore**2 / 4.0
-    return float(np.trapezoid(excess * area * 2.0 * grid, grid))
+    return float(np.trapezoid(excess * chamber.area * 2.0 * grid, grid))
 
 
 def _height(chamber: Chamber, rows: np.ndarray, side: int) -> np.ndarray:

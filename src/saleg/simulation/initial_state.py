@@ -12,7 +12,7 @@ import numpy as np
 
 from saleg.columns import log, sqrt
 from saleg.compiler.compiled_engine import check_methods
-from saleg.engine import CombustionChamber, Cylinder, SealedCylinder
+from saleg.engine import CombustionChamber, Cylinder, GasChamber, OpenEnd, SealedCylinder
 from saleg.engine.start import Contents
 from saleg.errors import LawError, SalegError, StartError
 from saleg.kernel import layout
@@ -137,7 +137,7 @@ def initial_numbers(engine: Engine, kernel: Any) -> tuple[Any, list[Any], list[A
     y = [0.0] * layout.N_ALL
     y[layout.X], y[layout.V] = start.x, start.v
     for side, contents in enumerate((start.left, start.right)):
-        _fill_chamber(C[side], engine.chambers[side], 1.0 - 2.0 * side)
+        _fill_chamber(C[side], engine.chambers[side], engine.piston_areas[side], 1.0 - 2.0 * side)
         _fill_contents(C[side], contents, y, side)
         supply = getattr(engine.chambers[side], "supply", None)
         if supply is not None and "crankcase" in supply.states:
@@ -159,7 +159,7 @@ def _acceleration(engine: Engine, E: Any, C: list[Any], y: list[Any], kernel: An
         p = c.intake_pressure if is_open else kernel.gas_of(E, C, side, y, 0).p
         gas_force = gas_force + c.sign * c.area * p
     dy = [0.0] * layout.N_ALL
-    kernel.rates_of_motion(engine, E, 0.0, y, dy, gas_force)
+    kernel.rates_of_motion(engine, E, 0.0, y, dy, gas_force + E.back_force)
     return dy[layout.V]
 
 
@@ -179,6 +179,7 @@ def sign(value: float) -> float:
 def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     length = 0.5 * engine.maximum_stroke
     E.mass = engine.translator.mass
+    E.back_force = engine.back_force
     E.length_scale = length
     E.speed_scale = length * sqrt(_stiffness(engine, length) / E.mass)
     E.maximum_stroke = engine.maximum_stroke
@@ -246,25 +247,27 @@ def _stiffness(engine: Engine, length: float) -> float:
     ahead, behind = (engine.springs.force(Motion(0.0, x, 0.0, 0.0)) for x in (dx, -dx))
     total = max(-(ahead - behind) / (2.0 * dx), 0.0)
     for chamber in engine.chambers:
-        area = math.pi * chamber.bore**2 / 4.0
-        total += 1.35 * chamber.reference_state.pressure * area / chamber.half_stroke
+        total += 1.35 * chamber.reference_state.pressure * chamber.area / chamber.half_stroke
     return total
 
 
-def _fill_chamber(c: Any, chamber: Chamber, sign: float) -> None:
+def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
     c.sign = sign
-    c.bore = chamber.bore
-    c.area = math.pi * chamber.bore**2 / 4.0
+    c.area = area
     c.half_stroke = chamber.half_stroke
-    c.wall_temperature = chamber.wall_temperature
     c.head_gap = chamber.head_gap
-    c.gas_constant = chamber.gas_properties.gas_constant  # type: ignore[attr-defined]
     c.ignition_time = -1.0
+    if isinstance(chamber, GasChamber):
+        c.bore = chamber.bore
+        c.wall_temperature = chamber.wall_temperature
+        c.gas_constant = chamber.gas_properties.gas_constant
     full = chamber.reference_state
     c.p_closing = c.intake_pressure = full.pressure
     c.T_closing = c.intake_temperature = full.temperature
     c.V_closing = c.area * full.clearance
     c.port = full.clearance if isinstance(chamber, Cylinder) else math.inf
+    if isinstance(chamber, OpenEnd):
+        c.port = 0.0  # it never closes
     c.breathes = float("contents" in chamber.states)
     if isinstance(chamber, Cylinder):
         c.by_flow = float("contents" in chamber.gas_exchange.states)

@@ -12,6 +12,7 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.kernel.layout import EVENT_NAMES
+from saleg.simulation.net_output import Auxiliaries, NetOutput, net_output_of
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.tables import cycle_table, dead_centre_table, event_table, history_table
@@ -178,6 +179,25 @@ class Run:
         NaN for a chamber whose ports let no gas flow, and without a full cycle.
         """
         return scavenging_of(self.engine, self.last_cycle_strokes)
+
+    def net_output(self, auxiliaries: Auxiliaries | None = None) -> NetOutput:
+        """Power of the last full cycle once charger, electronics and consumers are paid for.
+
+        Parameters
+        ----------
+        auxiliaries : Auxiliaries, optional
+            Their efficiencies and the state of the surroundings.
+
+        Returns
+        -------
+        NetOutput
+
+        Raises
+        ------
+        InvalidEngine
+            If a number of the auxiliaries is out of range.
+        """
+        return net_output_of(self.engine, self.last_cycle_strokes, auxiliaries)
 
     @property
     def plot(self) -> Plots:

@@ -16,7 +16,7 @@ import numpy as np
 from saleg.compiler import search
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.compiler.kernel import Kernel
-from saleg.engine import BounceChamber, Chamber, Engine
+from saleg.engine import BounceChamber, Chamber, Engine, OpenEnd
 from saleg.kernel import layout, tableaus
 from saleg.kernel.differences import Differences
 from saleg.kernel.orbit import (
@@ -409,7 +409,9 @@ def constant_entries(engine: Engine) -> set[int]:
         kept.add(Z_AMPERES)
     for side, chamber in enumerate(engine.chambers):
         first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
-        if chamber.is_sealed:
+        if isinstance(chamber, OpenEnd):
+            kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
+        elif chamber.is_sealed:
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
             kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED, first + Z_WALL}
         elif isinstance(chamber, BounceChamber):  # gas flows, but no charge is composed

@@ -25,6 +25,7 @@ from saleg.kernel.tuples import Snapshots
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import State, natural_period, prepare
+from saleg.simulation.net_output import Auxiliaries, NetOutput, net_output_of
 from saleg.simulation.outcome import (
     MAX_IMBALANCE,
     delivers_power,
@@ -172,6 +173,25 @@ class SteadyState:
     def scavenging(self) -> tuple[Scavenging, Scavenging]:
         """Gas exchange of the left and the right cylinder, as of a run."""
         return scavenging_of(self.engine, self.strokes if len(self.strokes) else None)
+
+    def net_output(self, auxiliaries: Auxiliaries | None = None) -> NetOutput:
+        """Power once charger, electronics and consumers are paid for, as of a run.
+
+        Parameters
+        ----------
+        auxiliaries : Auxiliaries, optional
+
+        Returns
+        -------
+        NetOutput
+
+        Raises
+        ------
+        InvalidEngine
+            If a number of the auxiliaries is out of range.
+        """
+        cycle = self.strokes if len(self.strokes) else None
+        return net_output_of(self.engine, cycle, auxiliaries)
 
     @property
     def plot(self) -> Plots:

@@ -1,0 +1,205 @@
+"""Fuels: what a kilogram gives, what air it takes, what gas it makes with it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from saleg.engine import Fuel
+from saleg.errors import SalegError, nearest, shown
+from saleg.fuels.mixtures import NITROGEN, added, gas_of, mass_of, times
+from saleg.fuels.species import Atoms, all_species
+from saleg.laws import MixtureGas
+from saleg.quantities import as_float
+
+#: Gases that are no fuels.
+AIR_AND_PRODUCTS = ("oxygen", "nitrogen", "carbon dioxide", "water")
+
+
+class FuelError(SalegError, ValueError):
+    """A fuel, or an amount of it, that cannot be."""
+
+
+@dataclass(frozen=True)
+class RealFuel:
+    """Fuel of one or several kinds of molecules, as a gas.
+
+    Attributes
+    ----------
+    name : str
+    moles : dict of str to float
+        Its molecules in a mole of fuel [mol].
+
+    Examples
+    --------
+    >>> from saleg import fuels
+    >>> round(fuels.methane.lower_heating_value / 1e6, 2), round(fuels.methane.air_fuel_ratio, 2)
+    (50.03, 17.12)
+    """
+
+    name: str
+    moles: dict[str, float]
+
+    @cached_property
+    def atoms(self) -> Atoms:
+        """Atoms in its mean molecule."""
+        parts = [(amount, all_species()[name].atoms) for name, amount in self.moles.items()]
+        return Atoms(*(sum(amount * getattr(a, atom) for amount, a in parts) for atom in "CHON"))
+
+    @property
+    def molar_mass(self) -> float:
+        """Mass of a mole [kg/mol]."""
+        return self.atoms.molar_mass
+
+    @property
+    def oxygen(self) -> float:
+        """Oxygen that a mole takes to burn completely [mol]."""
+        return self.atoms.C + self.atoms.H / 4.0 - self.atoms.O / 2.0
+
+    @property
+    def air_fuel_ratio(self) -> float:
+        """Stoichiometric air-fuel ratio by mass [-], of dry air."""
+        return mass_of(self._air(1.0)) / self.molar_mass
+
+    @cached_property
+    def lower_heating_value(self) -> float:
+        """Lower heating value [J/kg], at 298.15 K from and to gases."""
+        formed = {name: all_species()[name].formation_enthalpy for name in all_species()}
+        before = added(self.moles, self._air(1.0))
+        after = self._burnt(1.0)
+        released = sum(amount * formed[name] for name, amount in before.items())
+        released -= sum(amount * formed[name] for name, amount in after.items())
+        return released / self.molar_mass
+
+    @property
+    def fuel(self) -> Fuel:
+        """The fuel of a cylinder."""
+        return Fuel(self.lower_heating_value, self.air_fuel_ratio)
+
+    def charge(self, equivalence_ratio: float, burnt: float = 0.0) -> MixtureGas:
+        """Gas of fuel and air, and of what a charge before it has burnt to.
+
+        Parameters
+        ----------
+        equivalence_ratio : float
+            Of the fresh charge, and of the one burnt [-].
+        burnt : float
+            Share of burnt gas by mass [-]: 0 for a fresh charge, 1 for nothing but burnt gas.
+
+        Returns
+        -------
+        MixtureGas
+            For ``gas_properties`` of a chamber. A charge keeps one gas for a whole cycle.
+
+        Raises
+        ------
+        FuelError
+            If a number is out of range.
+        """
+        ratio, share = as_float(equivalence_ratio), as_float(burnt)
+        wrong = []
+        if ratio is None or not 0.0 <= ratio < math.inf:
+            wrong.append(f"equivalence_ratio = {shown(equivalence_ratio)}: must be a number >= 0")
+        if share is None or not 0.0 <= share <= 1.0:
+            wrong.append(f"burnt = {shown(burnt)}: must be a number >= 0 and <= 1")
+        if wrong or ratio is None or share is None:
+            raise FuelError("\n".join(wrong))
+        fresh = added(times(ratio, self.moles), self._air(1.0))
+        gone = self._burnt(ratio)
+        return gas_of(
+            added(times((1.0 - share) / mass_of(fresh), fresh), times(share / mass_of(gone), gone))
+        )
+
+    def _air(self, share: float) -> dict[str, float]:
+        """Air that a mole of fuel takes, times a share."""
+        oxygen = share * self.oxygen
+        return {"oxygen": oxygen, "nitrogen": NITROGEN * oxygen}
+
+    def _burnt(self, ratio: float) -> dict[str, float]:
+        """What `ratio` moles of fuel and the air of one burn to; surplus of either stays."""
+        burning, atoms = min(ratio, 1.0), self.atoms
+        return added(
+            times(ratio - burning, self.moles),
+            self._air(1.0 - burning),
+            {
+                "carbon dioxide": burning * atoms.C,
+                "water": burning * atoms.H / 2.0,
+                "nitrogen": burning * (NITROGEN * self.oxygen + atoms.N / 2.0),
+            },
+        )
+
+    def __repr__(self) -> str:
+        return f"<RealFuel {self.name!r}>"
+
+
+def pure(name: str) -> RealFuel:
+    """Fuel of one kind of molecules.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``"methane"``.
+
+    Returns
+    -------
+    RealFuel
+
+    Raises
+    ------
+    FuelError
+        With the nearest name if there are no data for it.
+    """
+    known = [species for species in all_species() if species not in AIR_AND_PRODUCTS]
+    if name not in known:
+        raise FuelError(f"no fuel {shown(name)}{nearest(str(name), known) or _listed(known)}")
+    return RealFuel(name, {name: 1.0})
+
+
+def blend(shares: Mapping[str, float], *, by_mass: bool = False, name: str = "") -> RealFuel:
+    """Fuel of several kinds of molecules.
+
+    Parameters
+    ----------
+    shares : mapping of str to float
+        Share of each fuel, by its name; they need not add up to one.
+    by_mass : bool
+        Whether they are shares of the mass; of the moles unless said.
+    name : str
+        What people call it; its parts and shares unless given.
+
+    Returns
+    -------
+    RealFuel
+
+    Raises
+    ------
+    FuelError
+        Naming every wrong share.
+
+    Examples
+    --------
+    >>> hythane = blend({"methane": 0.8, "hydrogen": 0.2})
+    >>> round(hythane.lower_heating_value / 1e6, 2)
+    52.16
+    """
+    if not isinstance(shares, Mapping) or not shares:
+        raise FuelError(f"shares = {shown(shares)}: must map names of fuels to their shares")
+    parts = {key: pure(key) for key in shares}
+    wrong = [key for key, share in shares.items() if not 0.0 < (as_float(share) or 0.0) < math.inf]
+    if wrong:
+        named = "\n".join(f"share of {key} = {shown(shares[key])}: must be > 0" for key in wrong)
+        raise FuelError(named)
+    amounts = {
+        key: float(share) / (parts[key].molar_mass if by_mass else 1.0)
+        for key, share in shares.items()
+    }
+    total = sum(amounts.values())
+    moles = {key: amount / total for key, amount in amounts.items()}
+    named = " + ".join(f"{100.0 * share:.3g} % {key}" for key, share in moles.items())
+    return RealFuel(name or named, moles)
+
+
+def _listed(known: list[str]) -> str:
+    return f"; there are {', '.join(known)}"
