@@ -159,8 +159,8 @@ class AtRest(Start):
     """At rest at the midpoint, both cylinders closed and filled at the intake's state (Ch. 5).
 
     A cylinder alone, or opposite a gas spring, rests where springs balance the air that its ports
-    have enclosed, which is far from the midpoint. There is no fuel in a cylinder: nothing is metered
-    before the ports have opened once.
+    have enclosed, which is far from the midpoint. There is no fuel in a cylinder: nothing is
+    metered before the ports have opened once.
     """
 
     def initial(self, engine: Any) -> Initial:
