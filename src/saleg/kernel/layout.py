@@ -75,7 +75,7 @@ CHAMBER_STATES = {
 }
 
 # Length of the vector a state at a dead centre is written as (see kernel/orbit.py).
-VECTOR_PER_SIDE = 16
+VECTOR_PER_SIDE = 19
 N_VECTOR = 8 + 2 * VECTOR_PER_SIDE + 1
 
 # Quantities whose greatest value in a stroke is kept.

@@ -84,6 +84,9 @@ Z_WALL = 12
 Z_LN_CRANKCASE = 13
 Z_CRANKCASE_MASS = 14
 Z_CRANKCASE_BURNT = 15
+Z_LN_LIT = 16
+Z_LN_CLOSING_PRESSURE = 17
+Z_LN_CLOSING_TEMPERATURE = 18
 # Unit of a wall's temperature in the vector [K]: a power of two, which rounds nothing.
 WALL_SCALE = 512.0
 Z_LN_MASS_MOVING = Z_CHAMBERS + 2 * VECTOR_PER_SIDE
@@ -123,6 +126,10 @@ def write_vector(E, C, y, z):
         z[first + Z_LN_CRANKCASE] = y[CRANKCASE_THETA + side]
         z[first + Z_CRANKCASE_MASS] = log(crankcase) if crankcase > 0.0 else 0.0
         z[first + Z_CRANKCASE_BURNT] = y[CRANKCASE_BURNT + side] / max(crankcase, 1e-300)
+        z[first + Z_LN_LIT] = log(c.mass_lit) if burning and c.breathes > 0.0 else 0.0
+        trapped = c.mode != OPEN and c.by_flow > 0.0
+        z[first + Z_LN_CLOSING_PRESSURE] = log(c.p_closing) if trapped else 0.0
+        z[first + Z_LN_CLOSING_TEMPERATURE] = log(c.T_closing) if trapped else 0.0
 
 
 @inline
@@ -133,6 +140,11 @@ def read_contents(C, side, y, z, first):
         c.burnt = c.mass - c.fuel - c.air
         y[FUEL + side], y[AIR + side], y[BURNT + side] = c.fuel, c.air, c.burnt
         y[FRESH + side] = z[first + Z_FRESH] * c.mass
+        if c.mode == BURNING:
+            c.mass_lit = exp(z[first + Z_LN_LIT])
+    if c.mode != OPEN and c.by_flow > 0.0:
+        c.p_closing = exp(z[first + Z_LN_CLOSING_PRESSURE])
+        c.T_closing = exp(z[first + Z_LN_CLOSING_TEMPERATURE])
     y[WALL + side] = z[first + Z_WALL] * WALL_SCALE
     c.wall_temperature = y[WALL + side]
     if y[CRANKCASE_MASS + side] > 0.0:

@@ -389,6 +389,8 @@ def regulate(P, E, C, y):
         piston_area=0.5 * (C[LEFT].area + C[RIGHT].area),
         fuel_energy=fuel + E.last_fuel_energy,
         speed_squared=squared + E.last_speed_squared,
+        x_left=min(y[X], E.x_dead_centre),
+        x_right=max(y[X], E.x_dead_centre),
     )
     E.last_fuel_energy = fuel
     E.last_speed_squared = squared

@@ -39,7 +39,7 @@ from saleg.laws.control.base import (
 )
 from saleg.laws.control.fuel import FuelCut, FuelOnDemand, NoFuel, RatedFuel
 from saleg.laws.control.intake import HeatedIntake, RatedIntake
-from saleg.laws.control.load import PowerDemand, ScaledLoad, StrokeRegulator
+from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad, StrokeRegulator
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.earlier_names import accept_earlier_names
@@ -109,6 +109,7 @@ __all__ = [
     "CosineForce",
     "CoulombViscousFriction",
     "Crankcase",
+    "DeadCentreRegulator",
     "DoubleWiebe",
     "Drive",
     "EndStops",
