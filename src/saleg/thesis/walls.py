@@ -1,8 +1,4 @@
-"""Engines of the dissertation with walls that follow, as 4.2 would have them.
-
-"A more robust model for wall temperature should be pursued in future research to ensure the
-accuracy of these findings."
-"""
+"""Engines of the dissertation with walls that follow: its section 4.2 asks for such a model."""
 
 from __future__ import annotations
 
