@@ -390,6 +390,9 @@ def test_scores_that_make_no_sense_are_refused(wrong, match):
 def test_figures_of_the_design(base_design):
     ax = base_design.draw()
     assert "990 mm" in ax.get_title()
+    texts = [text.get_text() for text in ax.texts]
+    parts = ["head", "piston", "ports", "mover", "spring", "bearing", "rod"]
+    assert [text for text in texts if text in parts] == parts
     assert ax.get_aspect() == 1.0
     drawings.piston_mass()
     panels = drawings.alternator_map()

@@ -27,6 +27,7 @@ from saleg.laws.base import (
     Validity,
     Wall,
 )
+from saleg.laws.choice import any_of, where
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     ActuatorLaw,
@@ -182,4 +183,6 @@ __all__ = [
     "Wall",
     "Wiebe",
     "Woschni",
+    "any_of",
+    "where",
 ]

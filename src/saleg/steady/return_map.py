@@ -203,7 +203,7 @@ class ReturnMap:
             address=searched.address,
             mirrored=mirrored,
         )
-        return cls(engine, searched.kernel, state, mirrored, strokes, mapping, _iterates())
+        return cls(engine, searched.kernel, state, mirrored, strokes, mapping, iterates_from())
 
     def finer(self, rtol: float, most_steps: int | None = None) -> ReturnMap:
         """The same map with another tolerance, from a copy of the present state."""
@@ -228,12 +228,14 @@ class ReturnMap:
 
     def find(self, max_maps: int, tolerance: float) -> Search:
         """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit)."""
-        self.iterates = _iterates()
+        self.iterates = iterates_from()
         return self._do(FIND, self.iterates, max_maps, tolerance)
 
     def find_each(self, max_maps: int, tolerance: float, searches: Searches) -> None:
         """Look for the fixed points of many engines of the same laws, one after the other."""
-        self.kernel.call("find_orbits", self.mapping, max_maps, tolerance, _iterates(), searches)
+        self.kernel.call(
+            "find_orbits", self.mapping, max_maps, tolerance, iterates_from(), searches
+        )
 
     def _do(
         self, task: int, iterates: Iterates, max_maps: int = 0, tolerance: float = 0.0
@@ -257,15 +259,15 @@ class ReturnMap:
             return
         words = self.mapping.integration.words.chambers
         self.mapping, asked = self.mapping._replace(mirrored=True), self.mapping
-        self._do(IMAGE, _iterates(self.vector(self.state)))
+        self._do(IMAGE, iterates_from(self.vector(self.state)))
         mirror(*self.state.records, self.state.y, words)  # half a cycle on, seen without the mirror
         self.mapping = asked
-        self._do(CYCLE, _iterates(self.vector(self.state)))
+        self._do(CYCLE, iterates_from(self.vector(self.state)))
 
     def cycle(self, start: State, z: np.ndarray) -> Search:
         """Whole cycle from a vector, recorded."""
         self.reset(start)
-        return self._do(CYCLE, _iterates(z))
+        return self._do(CYCLE, iterates_from(z))
 
     def reset(self, state: State) -> None:
         """Go to a copy of a state."""
@@ -283,7 +285,7 @@ class ReturnMap:
             If there is none.
         """
         self.reset(start)
-        iterates = _iterates(z)
+        iterates = iterates_from(z)
         code = self._do(IMAGE, iterates).code
         if code != layout.END_OF_TIME:
             raise NoReturn(code)
@@ -306,7 +308,7 @@ class ReturnMap:
         """
         differences = differences_at(self.engine, States.of(start), by)
         differences.points[0] = z
-        code = self.kernel.call("find_jacobian", self.mapping, _iterates(), differences)
+        code = self.kernel.call("find_jacobian", self.mapping, iterates_from(), differences)
         if code != layout.END_OF_TIME:
             raise NoReturn(int(code))
         matrix: np.ndarray = differences.matrices[0]
@@ -314,7 +316,7 @@ class ReturnMap:
 
     def jacobians(self, laws: np.ndarray, differences: Differences) -> None:
         """Differentiate the maps of many engines, whose laws have these numbers."""
-        self.kernel.call("find_jacobians", self.mapping, _iterates(), laws, differences)
+        self.kernel.call("find_jacobians", self.mapping, iterates_from(), laws, differences)
 
 
 def differences_at(engine: Engine, starts: States, by: float) -> Differences:
@@ -388,7 +390,7 @@ def _moved_entries(engine: Engine, starts: States) -> np.ndarray:
     return moved
 
 
-def _iterates(point: np.ndarray | None = None) -> Iterates:
+def iterates_from(point: np.ndarray | None = None) -> Iterates:
     """Room for points, residuals and images; begins at a point."""
     n = layout.N_VECTOR
     return Iterates(
@@ -399,6 +401,7 @@ def _iterates(point: np.ndarray | None = None) -> Iterates:
         residuals=np.zeros((DEPTH, n)),
         gram=np.zeros((DEPTH, DEPTH + 2)),
         modes=np.zeros(2, np.int64),
+        counts=np.zeros(2, np.int64),
     )
 
 
