@@ -48,6 +48,7 @@ PUBLIC = (
     "saleg.thesis.chapter_5",
     "saleg.thesis.optimisation",
     "saleg.thesis.tables",
+    "saleg.thesis.walls",
 )
 #: A unit in a description: ``[m/s]``, ``[-]``, "in the unit of the figure".
 UNIT = re.compile(r"\[[^\]]+\]|in (its|that|the)( SI)? unit|square of its unit", re.IGNORECASE)
