@@ -1,7 +1,7 @@
-"""Steady states: solved against waited for, together against one by one, sweeps, two threads.
+"""Steady states: solved against waited for, one by one, together, in lanes, sweeps, threads.
 
     python benchmarks/steady.py [--designs 1000] [--repeats 5] [--agree 500] [--memory 100000]
-                                [--line 1000] [--grid 100]
+                                [--line 1000] [--grid 100] [--compile 1]
 
 Random designs vary the base case by a fifth. Waiting is 2.5 s of simulation with the same
 integrator at the same tolerance, as the thesis does it; both are timed in turns in one run.
@@ -14,7 +14,9 @@ import os
 import platform
 import subprocess
 import sys
+import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 
 import numpy as np
@@ -22,7 +24,7 @@ import numpy as np
 import saleg
 from saleg import sweep
 from saleg.batch.many import steady_row
-from saleg.steady import lines, many
+from saleg.steady import lanes, lines, many
 from saleg.steady.solver import found_steady_state
 
 BASE = saleg.machines.thesis_base()
@@ -77,20 +79,36 @@ def compare(engines):
     print(f"found as a fixed point: {methods['fixed point']} of {count}\n")
 
 
+def batch(engines, rtol, in_lanes):
+    """Table of engines solved together, one after the other or in lanes."""
+    least, enough = lanes.MANY, lanes.WORTH_COMPILING
+    lanes.MANY = lanes.WORTH_COMPILING = 0 if in_lanes else np.inf
+    try:
+        return saleg.steady_states(engines, rtol=rtol, workers=1)
+    finally:
+        lanes.MANY, lanes.WORTH_COMPILING = least, enough
+
+
 def together(engines, repeats):
     """Best of some repeats of tables of engines solved one by one and together, in turns."""
     row_of = partial(steady_row, multipliers=False)
-    ways = {
-        "one by one": lambda: [row_of(found_steady_state(engine, RTOL)) for engine in engines],
-        "together": lambda: saleg.steady_states(engines, rtol=RTOL, workers=1),
-    }
-    best = dict.fromkeys(ways, np.inf)
-    for _ in range(repeats):
-        for name, way in ways.items():
-            best[name] = min(best[name], seconds(way)[0])
-    for name, spent in best.items():
-        print(f"{name}: {1e3 * spent / len(engines):.3f} ms a row")
-    print(f"ratio {best['one by one'] / best['together']:.2f}\n")
+    for rtol in (RTOL, 1e-9):
+        ways = {
+            "one by one": lambda rtol=rtol: [row_of(found_steady_state(e, rtol)) for e in engines],
+            "together": lambda rtol=rtol: batch(engines, rtol, False),
+            "in lanes": lambda rtol=rtol: batch(engines, rtol, True),
+        }
+        batch(engines[: lanes.WIDTH], rtol, True)  # compiled, if it has to be
+        best = dict.fromkeys(ways, np.inf)
+        for _ in range(repeats):
+            for name, way in ways.items():
+                best[name] = min(best[name], seconds(way)[0])
+        for name, spent in best.items():
+            ratio = best["one by one"] / spent
+            print(
+                f"rtol {rtol:.0e}, {name}: {1e3 * spent / len(engines):.3f} ms a row ({ratio:.2f})"
+            )
+    print()
 
 
 def from_own_starts(solve):
@@ -143,14 +161,43 @@ def on_a_grid(points):
     print()
 
 
-def threads(engines, repeats):
-    """Best of some repeats with one thread and with two, in turns."""
-    best = {1: np.inf, 2: np.inf}
-    for _ in range(repeats):
-        for workers in best:
-            spent = seconds(lambda w=workers: saleg.steady_states(engines, workers=w))[0]
-            best[workers] = min(best[workers], spent)
-    print(f"two threads: {best[1] / best[2]:.2f} times as fast as one\n")
+def at_once(engines, repeats):
+    """Best of some repeats of a table with one thread, two, and two processes, in turns."""
+    with ProcessPoolExecutor(2) as pool:
+        ways = {
+            "one thread": {"workers": 1},
+            "two threads": {"workers": 2},
+            "two processes": {"executor": pool},
+        }
+        best = dict.fromkeys(ways, np.inf)
+        for _ in range(repeats):
+            for name, how in ways.items():
+                best[name] = min(
+                    best[name], seconds(partial(saleg.steady_states, engines, **how))[0]
+                )
+    each = ", ".join(f"{name} {1e3 * t / len(engines):.3f}" for name, t in best.items())
+    print(f"{len(engines)} rows: {each} ms a row\n")
+
+
+def compilation():
+    """What compiling costs a process with an empty cache folder [s of a processor]."""
+    code = f"""
+import sys; sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
+import steady, time
+def spend(what, function):
+    start = time.process_time(); function(); print(what, f"{{time.process_time() - start:.1f}} s")
+some = list(steady.designs(3))
+spend("first simulate:", lambda: steady.saleg.simulate(steady.BASE, 0.1))
+spend("first steady_state after it:", lambda: steady.saleg.steady_state(steady.BASE))
+spend("first batch after it:", lambda: steady.batch(some, steady.RTOL, False))
+spend("first batch in lanes after it:", lambda: steady.batch(some, steady.RTOL, True))
+other = [one.replace(friction=steady.saleg.laws.ConstantFriction()) for one in some]
+spend("other laws:", lambda: steady.batch(other, steady.RTOL, False))
+spend("their lanes:", lambda: steady.batch(other, steady.RTOL, True))
+"""
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {**os.environ, "SALEG_CACHE_DIR": folder}
+        subprocess.run([sys.executable, "-c", code], check=True, env=environment)
 
 
 def agreement(count):
@@ -196,6 +243,7 @@ def main():
     parser.add_argument("--memory", type=int, default=100_000, help="designs of the memory test")
     parser.add_argument("--line", type=int, default=1000, help="points of a sweep along a line")
     parser.add_argument("--grid", type=int, default=100, help="points of a grid in each direction")
+    parser.add_argument("--compile", type=int, default=1, help="whether to compile afresh, timed")
     options = parser.parse_args()
     machine = f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
     print(f"{machine}; Python {platform.python_version()}; saleg {saleg.__version__}\n")
@@ -203,12 +251,14 @@ def main():
     saleg.steady_state(BASE)
     saleg.simulate(BASE, 0.1)
     compare(engines)
-    together(engines[: options.designs // 2], options.repeats)
+    together(engines, options.repeats)
     if options.line:
         along_a_line(options.line, options.repeats)
     if options.grid:
         on_a_grid(options.grid)
-    threads(engines[: options.designs // 2], options.repeats)
+    at_once(engines, options.repeats)
+    if options.compile:
+        compilation()
     if options.agree:
         agreement(options.agree)
     if options.memory:

@@ -38,7 +38,8 @@ def outputs(path, folder):
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 @pytest.mark.filterwarnings("ignore")  # of the tools that start a kernel, not of the library
-def test_a_notebook_runs_and_every_cell_shows_something(path, tmp_path):
+def test_a_notebook_runs_and_every_cell_shows_something(path, tmp_path, monkeypatch):
+    monkeypatch.setenv("TQDM_DISABLE", "1")  # whether a bar shows depends on the machine
     shown = outputs(path, tmp_path)
     for name, found in shown.items():
         (result,) = found  # nothing on the streams of errors, such as a warning

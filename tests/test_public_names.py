@@ -12,6 +12,7 @@ from helpers import ROOT
 #: Packages and modules a user imports from.
 PUBLIC = (
     "saleg",
+    "saleg.calibration",
     "saleg.continuation",
     "saleg.control",
     "saleg.design",
@@ -28,12 +29,14 @@ PUBLIC = (
     "saleg.plotting.control",
     "saleg.plotting.design",
     "saleg.plotting.fundamental",
+    "saleg.plotting.measured",
     "saleg.plotting.optimisation",
     "saleg.plotting.sensitivity",
     "saleg.plotting.studies",
     "saleg.plotting.sweeps",
     "saleg.quantities",
     "saleg.reference",
+    "saleg.reporting",
     "saleg.sensitivity",
     "saleg.start",
     "saleg.studies",
@@ -51,6 +54,7 @@ PUBLIC = (
     "saleg.thesis.printed_tables",
     "saleg.thesis.prototypes",
     "saleg.thesis.tables",
+    "saleg.thesis.walls",
 )
 #: A unit in a description: ``[m/s]``, ``[-]``, "in the unit of the figure".
 UNIT = re.compile(r"\[[^\]]+\]|in (its|that|the)( SI)? unit|square of its unit", re.IGNORECASE)

@@ -37,6 +37,7 @@ from saleg.steady.solver import Effort, SteadyState, steady_state
 from saleg.version import __version__, show_versions
 
 if TYPE_CHECKING:  # imported on first use
+    from saleg import calibration as calibration
     from saleg import control as control
     from saleg import design as design
     from saleg import export as export
@@ -48,6 +49,8 @@ if TYPE_CHECKING:  # imported on first use
     from saleg import studies as studies
     from saleg import sweep as sweep
     from saleg import thesis as thesis
+    from saleg.calibration.fit import calibrate as calibrate
+    from saleg.reporting.document import report as report
     from saleg.steady import continuation as continuation
     from saleg.studies import sensitivity as sensitivity
     from saleg.studies.comparison import compare as compare

@@ -10,6 +10,7 @@ from typing import Any
 
 #: Parts that are imported on first use.
 LAZY = (
+    "calibration",
     "continuation",
     "control",
     "design",
@@ -25,7 +26,11 @@ LAZY = (
     "thesis",
 )
 #: Functions that are imported on first use, and the modules they stand in.
-FUNCTIONS = {"compare": "saleg.studies.comparison"}
+FUNCTIONS = {
+    "calibrate": "saleg.calibration.fit",
+    "compare": "saleg.studies.comparison",
+    "report": "saleg.reporting.document",
+}
 #: Short names that documentation has given to modules, and where these live. Some of them are
 #: names for good (``saleg.continuation``, ``saleg.sensitivity``, ``saleg.start``).
 ALIASES = {
@@ -35,7 +40,6 @@ ALIASES = {
     "saleg.paths": "saleg.engine.paths",
     "saleg.files": "saleg.engine.toml",
     "saleg.performance": "saleg.simulation.performance",
-    "saleg.report": "saleg.simulation.report",
     "saleg.thesis_tables": "saleg.thesis.tables",
     "saleg.fundamental.plots": "saleg.plotting.fundamental",
     "saleg.fundamental.figures": "saleg.thesis.chapter_2",

@@ -8,7 +8,10 @@ import pytest
 import saleg
 from breathing_engines import single_piston
 from saleg import laws
+from saleg.kernel import layout
+from saleg.simulation.initial_state import prepare
 from saleg.status import Status
+from saleg.steady.return_map import ReturnMap
 
 PORTS = laws.PortFlow(
     exhaust_width=0.1,
@@ -149,3 +152,33 @@ def test_an_engine_that_breathes_goes_to_a_file_and_back(crankcase, tmp_path):
     run.save(tmp_path / "run.npz")
     loaded = saleg.Run.load(tmp_path / "run.npz")
     assert np.array_equal(loaded.strokes, run.strokes)
+
+
+def test_the_vector_of_a_dead_centre_holds_all_that_a_return_depends_on(crankcase):
+    """A charge that burns at dead centre: how much leaked since it was lit counts as well."""
+    engine = crankcase.replace(**{"heat_release.combustion_duration": 4e-3})
+    start = saleg.steady_state(engine).replay.start
+    assert start.chambers["mode"][0] == layout.BURNING
+    other = prepare(engine)
+    other.engine["direction"] = start.engine["direction"]
+    for name in ("mode", "armed"):
+        other.chambers[name] = start.chambers[name]
+    images = []
+    for state in (start, other):
+        return_map = ReturnMap.of(engine, state.copy(), 1e-11, mirrored=False)
+        images.append(return_map.image(state, return_map.vector(start)))
+    assert np.abs(images[0] - images[1]).max() < 1e-7
+
+
+def test_a_branch_of_a_single_piston_engine_that_breathes(crankcase):
+    burning = crankcase.replace(**{"heat_release.combustion_duration": 4e-3})
+    branch = saleg.continuation.branch(burning, "alternator.load_constant", 13.0, step=0.6)
+    assert branch.ended == "arrived"
+    for point in branch.points[1:]:
+        there = burning.replace(**{"alternator.load_constant": point.value})
+        alone = saleg.steady_state(there, rtol=1e-8)
+        for name in ("stroke", "power", "charge_mass", "peak_pressure"):
+            wanted = getattr(alone.performance, name)
+            assert getattr(point.steady.performance, name) == pytest.approx(wanted, rel=1e-6), name
+        leading = [abs(found.multipliers[0]) for found in (point.stability, alone.stability)]
+        assert leading[0] == pytest.approx(leading[1], abs=1e-5)

@@ -21,6 +21,7 @@ from saleg.laws import (
     AlwaysMotored,
     Commands,
     CompressionThreshold,
+    DeadCentreRegulator,
     FuelCut,
     FuelOnDemand,
     HeatedIntake,
@@ -526,6 +527,50 @@ def test_signals_have_the_compression_ratio_of_the_cylinder(base, sensors):
     shown = [signals.compression_ratio for signals in listening.seen]
     assert shown[1:] == pytest.approx(run.dead_centres.compression_ratio.tolist(), rel=1e-9)
     assert shown[-1] == pytest.approx(history.V_left.max() / history.V_left.min(), rel=1e-2)
+    for side in ("left", "right"):
+        name, volumes = f"compression_ratio_{side}", history[f"V_{side}"]
+        shown = [getattr(signals, name) for signals in listening.seen]
+        assert shown[1:] == pytest.approx(run.dead_centres[name].tolist(), rel=1e-9)
+        assert shown[-1] == pytest.approx(volumes.max() / volumes.min(), rel=1e-2)
+    ends = sorted(run.dead_centres.x.tolist()[-2:])
+    assert [listening.seen[-1].x_left, listening.seen[-1].x_right] == pytest.approx(ends, rel=1e-9)
+
+
+@pytest.mark.parametrize("sensors", [None, Sensors()])
+def test_the_top_dead_centre_of_a_cylinder_is_held(base, sensors):
+    """Left to itself the piston turns 12.1 mm from its head."""
+    engine = single_piston(base, load_constant=49.66, regulator_gain=0.0)
+    held = DeadCentreRegulator(distance=0.0885)
+    run = control.simulate(
+        engine, Controller(state_logic=NeverMotored(), load_control=held), 3.0, sensors=sensors
+    )
+    assert run.cycles.x_left.iloc[-1] == pytest.approx(-0.0885, abs=2e-6)
+    weight = run.dead_centres.load_weight.iloc[-1]
+    steady = saleg.steady_state(engine.replace(**{"alternator.load_constant": 49.66 * weight}))
+    assert steady.strokes["x_end"].min() == pytest.approx(-0.0885, abs=1e-5)
+    right = dataclasses.replace(held, right=1.0, distance=0.1)
+    run = control.simulate(engine, Controller(state_logic=NeverMotored(), load_control=right), 3.0)
+    assert run.cycles.x_right.iloc[-1] == pytest.approx(0.1, abs=2e-6)
+
+
+def test_a_single_piston_engine_is_started_up_from_where_it_rests(base):
+    """At the midpoint its gas spring would throw it against the head, without fuel."""
+    engine = single_piston(base, load_constant=49.66, regulator_gain=0.0)
+    resting = engine.replace(start=AtRest())
+    start = AtRest().initial(resting)
+    left, right = resting.chambers
+    force = left.area * start.left.pressure - right.area * start.right.pressure
+    assert force == pytest.approx(2.0 * 20e3 * start.x, rel=1e-9)
+    squeezed = (0.133 / (0.1 + start.x)) ** 1.35
+    assert start.left.pressure == pytest.approx(1.05e5 * squeezed, rel=1e-9)
+    assert -0.06 < start.x < -0.01
+    left_alone = saleg.simulate(resting, 0.05, history=1, stall_stroke=0.0)
+    assert np.abs(left_alone.history.x - start.x).max() < 1e-3  # its wall warms the air
+    controller = Controller(motor_control=ResonanceSearch(amplitude=600.0, target=17.0))
+    run = control.start_up(engine, 24.0, duration=3.0, controller=controller)
+    found = saleg.steady_state(engine).performance
+    assert run.performance.stroke == pytest.approx(found.stroke, rel=1e-6)
+    assert run.performance.power == pytest.approx(found.power, rel=1e-6)
 
 
 def test_a_threshold_is_passed_by_the_cylinder_of_a_single_piston_engine(base):

@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 import saleg
+from helpers import single_piston
 from saleg import Status, laws, sweep
 from saleg.design import (
     AirSprings,
@@ -226,6 +227,33 @@ def test_what_is_no_design_is_refused():
         saleg.design.evaluate(Design(laws=engine))
 
 
+def test_a_single_piston_engine_is_designed(base):
+    """The gas spring stays; the mass is that of the components, where engine and design agree."""
+    laws_of = single_piston(base, length=0.1, pressure=2.5e5)
+    masses = MassModel(pistons=saleg.design.UnlikePistons(gas_spring_bore=0.08))
+    design = Design(laws=laws_of, masses=masses)
+    found = saleg.design.evaluate(design, bore=0.066, spring_stiffness=20e3)
+    assert found.status is Status.STEADY, found.message
+    assert found.engine.right == laws_of.right
+    assert found.engine.left.bore == 0.066
+    heads = [82.3 * bore**2 + 0.0136 * bore - 8.16e-5 for bore in (0.066, 0.08)]
+    assert found.masses.pistons == pytest.approx(sum(heads) / 2.0, rel=1e-12)
+    assert found.moving_mass == pytest.approx(found.masses.total, rel=1e-6)
+    alone = saleg.steady_state(found.engine.replace(moving_mass=found.moving_mass))
+    assert alone.performance.power == pytest.approx(found.performance.power, rel=1e-5)
+    points = saleg.sweep.grid({"bore": [0.064, 0.066]})
+    table = saleg.sweep.run(points, design.replace(spring_stiffness=20e3))
+    assert table.power.iloc[1] == pytest.approx(found.performance.power, rel=1e-5)
+
+
+def test_laws_that_the_eight_parameters_do_not_fit_are_named(base):
+    flows = base.replace(gas_exchange=laws.PortFlow())
+    with pytest.raises(saleg.design.InvalidDesign, match="share of exhaust gas retained, egr"):
+        saleg.design.evaluate(Design(laws=flows))
+    with pytest.raises(saleg.design.InvalidDesign, match="mirrored engine, or have a gas spring"):
+        saleg.design.evaluate(Design(laws=base.replace(**{"left.bore": 0.06})))
+
+
 @pytest.mark.parametrize(
     ("values", "match"),
     [
@@ -362,6 +390,9 @@ def test_scores_that_make_no_sense_are_refused(wrong, match):
 def test_figures_of_the_design(base_design):
     ax = base_design.draw()
     assert "990 mm" in ax.get_title()
+    texts = [text.get_text() for text in ax.texts]
+    parts = ["head", "piston", "ports", "mover", "spring", "bearing", "rod"]
+    assert [text for text in texts if text in parts] == parts
     assert ax.get_aspect() == 1.0
     drawings.piston_mass()
     panels = drawings.alternator_map()

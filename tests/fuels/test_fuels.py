@@ -73,8 +73,8 @@ def test_burning_keeps_mass_and_atoms(fuel, ratio):
     def atoms(moles):
         return np.sum([n * np.array(all_species()[name].atoms) for name, n in moles.items()], 0)
 
-    before = mixtures.added(mixtures.times(ratio, fuel.moles), fuel._air(1.0))
-    after = fuel._burnt(ratio)
+    before = fuel.fresh(ratio)
+    after = fuel.burnt(ratio)
     np.testing.assert_allclose(atoms(before), atoms(after), rtol=1e-14, atol=1e-14)
     assert min(after.values()) >= 0.0
 
@@ -108,8 +108,8 @@ def cantera_gas(moles):
 @pytest.mark.parametrize("fuel", [*FUELS, *BLENDS], ids=lambda fuel: fuel.name)
 @pytest.mark.parametrize(("ratio", "burnt"), [(0.0, 0.0), (0.6, 0.12), (1.0, 1.0), (1.4, 0.5)])
 def test_gas_is_that_of_cantera(fuel, ratio, burnt):
-    fresh = mixtures.added(mixtures.times(ratio, fuel.moles), fuel._air(1.0))
-    gone = fuel._burnt(ratio)
+    fresh = fuel.fresh(ratio)
+    gone = fuel.burnt(ratio)
     shares = (1.0 - burnt) / mixtures.mass_of(fresh), burnt / mixtures.mass_of(gone)
     moles = mixtures.added(mixtures.times(shares[0], fresh), mixtures.times(shares[1], gone))
     cantera, gas = cantera_gas(moles)
@@ -127,11 +127,11 @@ def test_gas_is_that_of_cantera(fuel, ratio, burnt):
 
 @pytest.mark.parametrize("fuel", [*FUELS, *BLENDS], ids=lambda fuel: fuel.name)
 def test_heating_value_is_that_of_cantera(fuel):
-    fresh = mixtures.added(fuel.moles, fuel._air(1.0))
+    fresh = fuel.fresh(1.0)
     _, gas = cantera_gas(fresh)
     gas.TP = 298.15, 1e5
     before = gas.enthalpy_mass
-    gas.X = {SPECIES[name]: amount for name, amount in fuel._burnt(1.0).items()}
+    gas.X = {SPECIES[name]: amount for name, amount in fuel.burnt(1.0).items()}
     gas.TP = 298.15, 1e5
     share = fuel.molar_mass / mixtures.mass_of(fresh)
     assert fuel.lower_heating_value == pytest.approx((before - gas.enthalpy_mass) / share, rel=1e-6)

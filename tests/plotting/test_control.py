@@ -184,6 +184,19 @@ def test_figures_of_runs_take_axes_and_refuse_runs_without_a_cycle(started, base
         getattr(draw, name)(saleg.simulate(base, 1e-3))
 
 
+@pytest.mark.parametrize("name", ["start_up", "approach", "duty_cycle"])
+def test_experiments_with_names_stand_apart(started, misfired, name):
+    figure = getattr(draw, name)
+    panels = figure(misfired, figure(started, label="start"), label="misfire")
+    texts = [text.get_text() for text in panels[0].figure.legends[0].get_texts()]
+    assert {"start", "misfire"} <= {text.partition(":")[0] for text in texts}
+    ratio = panels[{"start_up": 5, "approach": 0, "duty_cycle": 0}[name]]
+    shown = [line for line in ratio.get_lines() if line.get_label() in ("start", "misfire")]
+    for line, run in zip(shown, (started, misfired), strict=True):
+        np.testing.assert_array_equal(line.get_ydata(), run.dead_centres["compression_ratio"])
+    assert shown[0].get_color() != shown[1].get_color()
+
+
 def test_resonance_shades_where_the_ports_open():
     motored = table(
         {

@@ -6,6 +6,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
 import saleg
 from saleg import plotting
@@ -100,10 +101,37 @@ def test_a_run_without_a_name_keeps_the_colours_of_the_sides(base_run, heavy):
 
 def test_time_goes_on_as_long_as_the_longest_run(base_run, heavy):
     assert heavy.duration < base_run.duration
+    alone = base_run.plot.approach_to_steady_state()[0].get_xlim()[1]
     panels = heavy.plot.approach_to_steady_state(base_run.plot.approach_to_steady_state())
-    cycles = base_run.cycles
-    assert panels[0].get_xlim()[1] >= (cycles["t"] + cycles["period"]).iloc[-1]
+    assert panels[0].get_xlim()[1] >= alone
     assert panels[0].get_title() == "Approach to steady state"
+    panels = heavy.plot.controlled(base_run.plot.controlled())
+    assert panels[0].get_xlim()[1] >= base_run.duration
+
+
+def test_the_approach_ends_when_all_is_settled(base_run):
+    """What is left out differs from the last cycle by less than a thousandth, in every figure."""
+    panels = base_run.plot.approach_to_steady_state()
+    end, cycles = panels[0].get_xlim()[1], base_run.cycles
+    assert end < 0.5 * base_run.duration
+    left_out = cycles[cycles["t"] > end]
+    for name in ("stroke", "compression_ratio", "power", "x_left", "x_right"):
+        last = cycles[name].iloc[-1]
+        assert (abs(left_out[name] - last) < 1e-3 * abs(last)).all()
+
+
+def test_figures_say_whose_they_are(base_run, heavy, base):
+    for name in ("forces", "energy_pie", "energy_balance", "approach_to_steady_state", "dynamics"):
+        axes = np.ravel(getattr(base_run.plot, name)())
+        assert axes[0].figure.get_supxlabel() == "thesis-base, rtol 1e-09"
+    ax = saleg.simulate(base, 0.1, method="fixed", step=1e-5).plot.forces(base_run.plot.forces())
+    signed = "thesis-base, rtol 1e-09 | thesis-base, order 4, steps of 10 µs"
+    assert ax.figure.get_supxlabel() == signed
+    assert base_run.plot.forces(Figure().subplots()).figure.get_supxlabel() == ""
+
+
+def test_a_run_nobody_commands_is_not_under_control(base_run):
+    assert "control" not in base_run.plot.controlled()[0].get_title()
 
 
 def test_a_run_that_ended_badly_says_so_in_the_legend(base_run):

@@ -45,6 +45,40 @@ def test_a_second_input_has_lines_of_its_own():
         )
 
 
+def test_tables_with_names_stand_apart(base):
+    points = sweep.grid({"bore": [0.060, 0.064]})
+    first, second = (
+        sweep.run(points, base.replace(egr=share), multipliers=False) for share in (0.1, 0.3)
+    )
+    axes = figures.panels(first, "bore", label="10 % EGR")
+    axes = figures.panels(second, "bore", axes, label="30 % EGR")
+    one, other = next(panel for panel in axes if panel.get_title() == "efficiency [%]").lines
+    np.testing.assert_allclose(other.get_ydata(), 100.0 * second.efficiency)
+    assert one.get_color() != other.get_color()
+    texts = [text.get_text() for text in axes[0].figure.legends[0].get_texts()]
+    assert [text.partition(":")[0] for text in texts] == ["10 % EGR", "30 % EGR"]
+
+
+def test_maps_over_two_inputs(base):
+    grid = sweep.grid({"bore": [0.060, 0.062, 0.064], "egr": [0.1, 0.3]})
+    table = sweep.run(grid, base, multipliers=False)
+    axes = figures.maps(table, "bore", "egr")
+    assert (axes[4].get_xlabel(), axes[0].get_ylabel()) == ("bore [mm]", "EGR [%]")
+    titles = [panel.get_title() for panel in axes]
+    cells = axes[titles.index("efficiency [%]")].collections[0].get_array()
+    wanted = 100.0 * table.pivot_table(index="egr", columns="bore", values="efficiency")
+    np.testing.assert_allclose(cells, wanted)
+
+
+def test_maps_of_scattered_points(cloud):
+    axes = figures.maps(cloud, "bore", "half_stroke")
+    kept = cloud[cloud.status == "steady"]
+    dots = axes[0].collections[0].get_offsets()
+    np.testing.assert_allclose(dots[:, 0], 1e3 * kept.bore)
+    crossed = axes[0].collections[1].get_offsets()
+    assert len(crossed) == (~kept.stable.astype(bool)).sum() > 0
+
+
 def test_a_sweep_of_an_engine_shows_every_figure_once(base):
     table = sweep.run(sweep.grid({"moving_mass": [2.2, 2.4]}), base, multipliers=False)
     titles = [axes.get_title() for axes in figures.panels(table, "moving_mass")]

@@ -155,7 +155,7 @@ def test_bifurcation_diagram_shows_the_branch(base):
     drawn = np.concatenate([line.get_xdata() for line in ax.lines if len(line.get_xdata()) > 1])
     assert set(np.round(drawn, 6)) == {13.0, 13.5, 14.0, 14.5, 15.0}
     assert ax.get_ylabel() == "power [kW]"
-    assert ax.get_xlabel() == "alternator.regulator_gain [-]"
+    assert ax.get_xlabel() == "alternator: regulator gain [-]"
 
 
 def test_what_cannot_be_followed_is_said(base):

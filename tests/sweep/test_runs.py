@@ -4,9 +4,10 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 
 import saleg
-from helpers import falls
+from helpers import falls, single_piston
 from saleg import sweep
 
 
@@ -43,3 +44,15 @@ def test_nothing_heavy_is_imported_with_saleg():
     code = "import sys, saleg; print([m for m in ('pandas', 'scipy', 'dask') if m in sys.modules])"
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert out.stdout.strip() == "[]"
+
+
+def test_a_sweep_of_a_single_piston_engine_has_the_figures_of_its_steady_states(base):
+    engine = single_piston(base, length=0.1, pressure=2.5e5)
+    values = {"right.pressure": [2.3e5, 2.7e5], "alternator.load_constant": [28.0, 32.0]}
+    table = sweep.run(sweep.grid(values), engine)
+    assert (table.status == "steady").all()
+    for _, row in table.iterrows():
+        alone = saleg.steady_state(engine.replace(**{name: row[name] for name in values}))
+        assert row.power == pytest.approx(alone.performance.power, rel=1e-5)
+        assert row.compression_ratio == pytest.approx(alone.performance.compression_ratio, rel=1e-5)
+        assert row.largest_multiplier == pytest.approx(abs(alone.multipliers[0]), abs=1e-4)

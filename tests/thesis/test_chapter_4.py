@@ -4,12 +4,14 @@ import pandas as pd
 import pytest
 
 import saleg
+from helpers import falls
 from printed import check, within
 from saleg.design import Design, MassModel, Operation, Parameters, Score, formulas
 from saleg.sweep import SweepError
 from saleg.thesis import beside as base_tables
 from saleg.thesis import chapter_4
 from saleg.thesis.tables import TABLE_2, columns
+from saleg.thesis.walls import with_walls_that_follow
 
 #: The column whose mass leaves no room for an alternator, see docs/design.md.
 OUTLIER = "25 kW"
@@ -252,3 +254,25 @@ def test_room_beneath_the_pistons_is_confirmed_on_columns_that_took_no_part():
 def test_a_sweep_the_chapter_has_not_is_refused_with_the_nearest():
     with pytest.raises(SweepError, match=r"no sweep of Chapter 4 along 'bor'; did you mean 'bore'"):
         chapter_4.sweep_along("bor")
+
+
+def test_walls_that_follow_change_little_over_the_intake_temperature(base):
+    """4.2 wants "a more robust model for wall temperature": all falls but the frequency, as before.
+
+    As it stands the engine keeps its 550 K; heat is conserved in the wall.
+    """
+    following = with_walls_that_follow(base)
+    figures, walls = [], []
+    for temperature in (325.05, 400.0, 480.0):
+        intake = {"intake.temperature": temperature}
+        fixed, steady = (saleg.steady_state(e.replace(**intake)) for e in (base, following))
+        walls.append(steady.strokes["wall_temperature"].mean())
+        heat = steady.strokes["heat_lost"].sum(axis=0)[0] * steady.performance.frequency
+        law = following.left.wall
+        assert heat == pytest.approx(law.conductance * (walls[-1] - 360.0), rel=1e-3)
+        assert steady.performance.power == pytest.approx(fixed.performance.power, rel=0.01)
+        figures.append(steady.performance)
+    assert walls[0] == pytest.approx(550.0, abs=0.5)
+    assert walls == sorted(walls)
+    for name in ("power", "efficiency", "compression_ratio", "stroke", "peak_pressure"):
+        assert falls([getattr(one, name) for one in figures]), name

@@ -14,6 +14,7 @@ from saleg.plotting import control as plots
 from saleg.thesis import beside
 from saleg.thesis.chapter_5 import EXPERIMENTS, demand
 from saleg.thesis.experiment import run_of, table_of
+from saleg.thesis.walls import with_walls_that_follow
 
 LITERAL = Controller(motor_control=ResonanceSearch(literal_phase=1.0))
 #: Compression ratio of Table 13.
@@ -184,6 +185,23 @@ def test_intake_temperature_follows_a_ramp_to_low_load(transient):
     assert run.status is Status.STEADY
     assert run.performance.power == pytest.approx(905.0, rel=0.01)
     assert run.performance.efficiency == pytest.approx(0.15, abs=0.005)
+
+
+def test_walls_that_follow_do_not_explain_the_40_kelvin_of_half_load(transient):
+    """5.2 prints half load at +40 K and 22 %; with walls that follow it takes twice as much."""
+    following = with_walls_that_follow(transient)
+    powers, efficiencies = [], []
+    for raised in (0.0, 40.0, 80.0, 100.0):
+        intake = {"intake.temperature": 263.0 + raised}
+        steady, fixed = (saleg.steady_state(e.replace(**intake)) for e in (following, transient))
+        assert steady.stable
+        powers.append(steady.performance.power)
+        efficiencies.append(steady.performance.efficiency)
+        assert powers[-1] == pytest.approx(fixed.performance.power, rel=0.005)
+    assert powers[1] > 1.4 * 1905.0
+    assert powers[2] > 1905.0 > powers[3]
+    assert efficiencies[0] == pytest.approx(0.38, abs=0.005)
+    assert efficiencies[3] == pytest.approx(0.22, abs=0.04)
 
 
 # --- the experiments of the command line

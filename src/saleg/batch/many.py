@@ -120,10 +120,12 @@ def steady_states(
     check_effort(effort)
     check_flag("multipliers", multipliers)
     check_workers(executor, workers)
-    work = partial(_steady_piece, rtol=rtol, multipliers=multipliers, effort=effort)
+    count = len(engines) if isinstance(engines, Sequence) else None
+    work = partial(
+        _steady_piece, rtol=rtol, multipliers=multipliers, effort=effort, total=count or 0
+    )
     units = STABILITY_UNITS if multipliers else STEADY_UNITS
     if chunk is None:
-        count = len(engines) if isinstance(engines, Sequence) else None
         chunk = suitable_chunk(count)
     return batch_table(work, engines, units, kernel_for, executor, workers, chunk)
 
@@ -192,6 +194,7 @@ def steady_columns(
     rtol: float,
     multipliers: bool,
     effort: Effort,
+    total: int,
 ) -> Columns:
     """Columns of steady states: of most engines together, of the others one by one.
 
@@ -208,9 +211,11 @@ def steady_columns(
     multipliers : bool
         Whether to differentiate each.
     effort : Effort
+    total : int
+        Number of engines in the batch they are a piece of.
     """
     together = []
-    for found in (orbits for rows in lots for orbits in steady_rows(rows, rtol, effort)):
+    for found in (orbits for rows in lots for orbits in steady_rows(rows, rtol, effort, total)):
         columns = columns_of(found, cycle_figures_of(found), *verdicts(found, rtol))
         if multipliers:
             columns |= stability_columns(found, columns["status"])
@@ -219,15 +224,15 @@ def steady_columns(
 
 
 def _steady_piece(
-    engines: Sequence[Engine], rtol: float, multipliers: bool, effort: Effort
+    engines: Sequence[Engine], rtol: float, multipliers: bool, effort: Effort, total: int
 ) -> Columns:
-    """Columns of steady states of some engines."""
+    """Columns of steady states of some engines, of a batch of so many."""
 
     def row_of(place: int) -> Row:
         return _steady_row(engines[place], rtol, multipliers, effort)
 
     lots = rows_by_make(engines)
-    return steady_columns(lots, row_of, len(engines), rtol, multipliers, effort)
+    return steady_columns(lots, row_of, len(engines), rtol, multipliers, effort, total)
 
 
 def cycle_figures_of(found: Orbits) -> dict[str, Any]:

@@ -92,7 +92,11 @@ class Evaluation:
         self.chunk = suitable_chunk(len(points)) if chunk is None else chunk
         self._result_units = evaluated.units
         self._pieces = partial(
-            in_pieces, partial(_rows, solver), chunk=self.chunk, executor=executor, workers=workers
+            in_pieces,
+            partial(_rows, solver, total=len(points)),
+            chunk=self.chunk,
+            executor=executor,
+            workers=workers,
         )
 
     def parts(self, done: Collection[int] = ()) -> Iterator[tuple[int, Columns]]:
@@ -136,11 +140,11 @@ def _values(points: pd.DataFrame) -> Iterator[Values]:
         yield dict(zip(names, map(float, row), strict=True))
 
 
-def _rows(solver: Callable[[], Solver], points: Iterable[Values]) -> Columns:
-    """Rows of a piece; each piece begins without memory."""
+def _rows(solver: Callable[[], Solver], points: Iterable[Values], total: int) -> Columns:
+    """Rows of a piece of so many points; each piece begins without memory."""
     fresh = solver()
     columns = getattr(fresh, "columns", None)
-    return rows_of(fresh, points) if columns is None else columns(points)
+    return rows_of(fresh, points) if columns is None else columns(points, total)
 
 
 def _check(points: pd.DataFrame, evaluated: Evaluated) -> None:

@@ -1,15 +1,29 @@
-"""Command line: ``saleg run``, ``steady``, ``list``, ``sweep``, ``optimize`` and others."""
+"""Command line: ``saleg run``, ``steady``, ``report``, ``list``, ``sweep`` and others."""
 
 from __future__ import annotations
 
 import argparse
 import contextlib
+import logging
 import os
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
 
-from saleg.cli import control, fundamental, listing, optimize, run, steady, sweep
+from saleg.cli import (
+    control,
+    design,
+    fundamental,
+    listing,
+    optimize,
+    report,
+    run,
+    sensitivity,
+    steady,
+    studies,
+    sweep,
+)
+from saleg.cli.completion import complete
 from saleg.errors import SalegError
 from saleg.files.signals import ending_in_order
 from saleg.version import __version__
@@ -32,9 +46,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit code: 0 for a run that ended well, 1 for one that ended badly, 2 for a mistake of the
         user's, 130 after Ctrl-C.
     """
-    options = _parser().parse_args(arguments)
+    parser = _parser()
+    complete(parser)
+    options = parser.parse_args(arguments)
     try:
-        with _short_warnings(), ending_in_order():
+        with _short_warnings(), _told_of_compilation(), ending_in_order():
             well = options.command(options)
             if sys.stdout is not None:
                 sys.stdout.flush()
@@ -56,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _complain(text: str) -> None:
     """Say something beside the results; nothing where there is no console."""
     if sys.stderr is not None:
-        print(f"saleg: {text}", file=sys.stderr)
+        print(f"saleg: {text}", file=sys.stderr, flush=True)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -65,14 +81,39 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"saleg {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    run.add_to(commands)
-    steady.add_to(commands)
-    listing.add_to(commands)
-    fundamental.add_to(commands)
-    sweep.add_to(commands)
-    optimize.add_to(commands)
-    control.add_to(commands)
+    parts = (run, steady, report, listing, design, sensitivity, studies)
+    for part in (*parts, fundamental, sweep, optimize, control):
+        part.add_to(commands)
     return parser
+
+
+class _OncePerText(logging.Handler):
+    """Says each text once."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.INFO)
+        self.said: set[str] = set()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Say a text that has not been said."""
+        text = record.getMessage()
+        if text not in self.said:
+            self.said.add(text)
+            _complain(text)
+
+
+@contextlib.contextmanager
+def _told_of_compilation() -> Iterator[None]:
+    """Say that something is compiled, where it is, and about how long that takes."""
+    log, handler = logging.getLogger("saleg.compiler"), _OncePerText()
+    level = log.level
+    log.addHandler(handler)
+    log.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        log.removeHandler(handler)
+        log.setLevel(level)
 
 
 @contextlib.contextmanager

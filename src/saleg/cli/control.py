@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.cli.run import CommandError, add_changes, changed, load
+from saleg.cli.run import add_changes, changed, load
+from saleg.cli.tables import write as write_csv
+from saleg.cli.words import CommandError
 from saleg.errors import nearest
 from saleg.files.atomic import write_text
 from saleg.files.reading import expanded
-from saleg.files.tables import labelled, write_table
 from saleg.machines import CATALOGUE
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from saleg.engine import Engine
     from saleg.simulation.run import Run
     from saleg.thesis.experiment import Experiment, Line
@@ -102,6 +102,7 @@ def perform(options: argparse.Namespace) -> bool:
     if options.animate is not None and run is not None:
         from saleg.plotting import animate
 
+        print(f"saleg: drawing {options.animate}, some 20 s", file=sys.stderr, flush=True)
         animate(run, options.animate, overwrite=options.force)
         print(f"wrote {options.animate}")
     return run is None or run.status.ended_well
@@ -191,16 +192,10 @@ def _write(folder: Path, engine: Engine, experiment: Experiment, result: Any) ->
     run, table = run_of(result), table_of(result)
     write_text(folder / ENGINE, (engine if run is None else run.engine).to_toml())
     if run is not None:
-        write_frame(folder / "dead_centres.csv", run.dead_centres)
-        write_frame(folder / "cycles.csv", run.cycles)
+        write_csv(folder / "dead_centres.csv", run.dead_centres)
+        write_csv(folder / "cycles.csv", run.cycles)
     if table is not None:
-        write_frame(folder / "results.csv", table)
+        write_csv(folder / "results.csv", table)
     for name, draw in experiment.draw.items() if _moved(run) else ():
         np.ravel(draw(result))[0].figure.savefig(folder / name)
     return [name for name in _known() if (folder / name).exists()]
-
-
-def write_frame(path: Path, frame: pd.DataFrame) -> None:
-    """Write a table with its units in the header, every number so that it is read back exactly."""
-    with open(path, "w", encoding="utf-8", newline="\n") as file:
-        write_table(file, labelled(frame))

@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from saleg.cli import pictures
 from saleg.export import csv_folder, formats
 from saleg.export.description import as_tables
 from saleg.files import atomic
@@ -41,7 +42,8 @@ def new_folder(target: Path, force: bool = False) -> AbstractContextManager[Path
     context manager
         Gives the folder to write to; see :func:`saleg.files.atomic.new_folder`.
     """
-    return atomic.new_folder(target, force, KNOWN, how="add --force")
+    known = (*KNOWN, *(f"{name}.png" for name in pictures.names()))
+    return atomic.new_folder(target, force, known, how="add --force")
 
 
 def write_run(run: Run, folder: Path, wanted: Sequence[str] = ("csv",)) -> list[str]:

@@ -6,19 +6,22 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from saleg.cli import pictures
 from saleg.cli.folder import FORMATS, new_folder, write_run
+from saleg.cli.words import CommandError
 from saleg.engine import Engine
+from saleg.engine.paths import unit_of
 from saleg.engine.toml import SLOTS, laws_by_slot, read_toml
-from saleg.errors import SalegError, nearest
+from saleg.errors import UnknownPath, nearest
 from saleg.export.formats import check
 from saleg.files.reading import expanded
+from saleg.files.units import UnitError, number_in_si
 from saleg.machines import CATALOGUE
 from saleg.simulation.integration import simulate
 from saleg.simulation.run import Run
 
-
-class CommandError(SalegError, ValueError):
-    """Words on the command line that make no sense together."""
+#: How engine files call what is the same on both sides.
+BOTH_SIDES = "cylinder."
 
 
 def add_to(commands: Any) -> None:
@@ -36,6 +39,7 @@ def add_to(commands: Any) -> None:
     add(
         "--out", type=expanded, metavar="DIR", help="write plots, tables and engine to a new folder"
     )
+    pictures.add_plot(parser, "in DIR, or here without one")
     add("--format", metavar="F,...", help=f"formats in DIR, of {', '.join(FORMATS)} (csv)")
     add("--force", action="store_true", help="replace DIR if it holds an earlier run")
     parser.set_defaults(command=run)
@@ -49,7 +53,8 @@ def add_changes(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="PATH=VALUE",
         dest="changes",
-        help="change a value (SI) or, by name, a law, such as intake.pressure=1.2e5; repeatable",
+        help="change a value (SI unless a unit follows) or, by name, a law, such as bore=66mm; "
+        "repeatable; 'saleg list parameters' shows what there is",
     )
 
 
@@ -58,14 +63,18 @@ def run(options: argparse.Namespace) -> bool:
     engine = changed(load(options.machine), options.changes)
     wanted = _formats(options)
     settings = _settings(options)
+    pictures.check(options.plot)
     if options.out is None:
         result = simulate(engine, options.duration, **settings)
         print(report(result))
+        if options.plot:
+            print(f"\nwrote {', '.join(pictures.draw(result, options.plot, Path()))}")
     else:
         engine.validate()
         with new_folder(options.out, options.force) as folder:
             result = simulate(engine, options.duration, **settings)
             names = write_run(result, folder, wanted)
+            names += pictures.draw(result, options.plot, folder)
         print(report(result))
         print(f"\nwrote {options.out}: {', '.join(names)}")
     return result.status.ended_well
@@ -82,10 +91,11 @@ def load(name: str) -> Engine:
 
 
 def changed(engine: Engine, assignments: list[str]) -> Engine:
-    """Copy of an engine with texts such as ``bore=0.06`` applied."""
+    """Copy of an engine with texts such as ``bore=60mm`` applied."""
     changes = {}
     for text in assignments:
         path, equals, value = (part.strip() for part in text.partition("="))
+        path = path.removeprefix(BOTH_SIDES)
         if not path or not equals or not value:
             raise CommandError(f"--set {text}: must be PATH=VALUE, such as bore=0.06")
         if path in changes:
@@ -95,16 +105,19 @@ def changed(engine: Engine, assignments: list[str]) -> Engine:
 
 
 def _value(engine: Engine, path: str, text: str) -> Any:
-    """Number, or law by name; other text as it is, for the engine's own checks to refuse."""
+    """Number in SI, or law by name; other text as it is, for the engine's checks to refuse."""
     slot = path.rpartition(".")[2]
     if path == "name":
         return text
     if slot in SLOTS and path in (slot, f"left.{slot}", f"right.{slot}"):
         return _law(text, slot)
     try:
-        return float(text)
-    except ValueError:
+        number = number_in_si(text, unit_of(engine, path))
+    except UnknownPath:  # told by the engine, with all others
         return text
+    except UnitError as error:
+        raise CommandError(f"--set {path}={text}: {error}") from None
+    return text if number is None else number
 
 
 def _law(name: str, slot: str) -> Any:

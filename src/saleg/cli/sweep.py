@@ -12,6 +12,9 @@ from saleg.files.reading import expanded
 if TYPE_CHECKING:
     import pandas as pd
 
+    from saleg.design import Design
+    from saleg.engine import Engine
+
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser's sub-commands."""
@@ -30,6 +33,7 @@ def sweep(options: argparse.Namespace) -> bool:
 
     asked = read(options.file)
     folder = options.out or options.file.with_suffix("")
+    print(_told(asked.points, asked.swept), flush=True)
     with executor_of(options) as pool:
         table = run(
             asked.points,
@@ -59,13 +63,32 @@ def _say(done: int, total: int) -> None:
     print(f"done {done} of {total}", flush=True)
 
 
-def _pictures(table: pd.DataFrame, folder: Path) -> list[str]:
-    """Panels over every input that has more than one value, if there is just one such input."""
-    varied = [name for name in table.attrs["inputs"] if len(table[name].unique()) > 1]
-    if len(varied) != 1 or "power_density" not in table:
-        return []
-    from saleg.plotting.sweeps import panels
+def _told(points: pd.DataFrame, swept: Design | Engine) -> str:
+    """What is swept, over which inputs."""
+    from saleg.engine import Engine
 
-    figure = panels(table, varied[0])[0].figure
-    figure.savefig(folder / "panels.png")
-    return ["panels.png"]
+    what = f"engine {swept.name}, fixed mass" if isinstance(swept, Engine) else "component design"
+    spans = (
+        f"{name} {points[name].min():g} to {points[name].max():g}"
+        if len(points[name].unique()) > 1
+        else f"{name} = {points[name].iloc[0]:g}"
+        for name in points
+    )
+    return f"{what}: {len(points)} points of {', '.join(spans)} (SI)"
+
+
+def _pictures(table: pd.DataFrame, folder: Path) -> list[str]:
+    """Panels over the input that varies, or maps over the first two that do."""
+    from saleg.errors import SweepError
+    from saleg.plotting.sweeps import maps, panels
+
+    varied = [name for name in table.attrs["inputs"] if len(table[name].unique()) > 1]
+    if not varied:
+        return []
+    name = "panels.png" if len(varied) == 1 else "map.png"
+    try:
+        axes = panels(table, *varied) if len(varied) == 1 else maps(table, *varied[:2])
+    except SweepError:  # no point has figures: what is wrong has been said
+        return []
+    axes.figure.savefig(folder / name)
+    return [name]

@@ -86,6 +86,10 @@ class Kept(NamedTuple):
         """File that serialises compilation among processes."""
         return self.path.with_suffix(".lock")
 
+    def has_code(self, name: str) -> bool:
+        """Whether there is machine code of an entry point."""
+        return any(self.code.glob(f"{self.path.stem}.{name}-*.nbi"))
+
     def check(self) -> None:
         """Refuse machine code others may have written.
 

@@ -129,6 +129,12 @@ def kernel_for(
     return _kernel(laws, modules, engine.needs_motored_pressure)
 
 
+def kernel_of_lanes(engine: Engine, width: int) -> Kernel:
+    """Kernel that steps so many engines side by side, of the laws of one."""
+    laws = _laws_in_order(engine, None)
+    return _kernel(laws, INTEGRATOR, engine.needs_motored_pressure, width)
+
+
 def check_methods(laws: Iterable[Law]) -> None:
     """Refuse laws of a user's that cannot be compiled, before any of them is called.
 
@@ -163,12 +169,15 @@ def _laws_in_order(engine: Engine, actuators: ActuatorLaw | None) -> list[Law]:
     return [*laws, actuators or IDLE_ACTUATORS]
 
 
-def _kernel(laws: list[Law], modules: tuple[str, ...], motored_pressure: bool) -> Kernel:
+def _kernel(
+    laws: list[Law], modules: tuple[str, ...], motored_pressure: bool, width: int = 1
+) -> Kernel:
     if plain.is_wanted():
         return plain.plain_kernel(modules)
     classes: tuple[Any, ...] = tuple(map(type, laws))
     state = tuple(map(fingerprint, _own(classes)))
-    return _composed(classes, modules, motored_pressure, records.lengths_of_all(laws), state)
+    lengths = records.lengths_of_all(laws)
+    return _composed(classes, modules, motored_pressure, lengths, state, width)
 
 
 @lru_cache(maxsize=256)
@@ -184,16 +193,19 @@ def _composed(
     motored_pressure: bool,
     lengths: tuple[Lengths, ...],
     state: tuple[object, ...],
+    width: int,
 ) -> Kernel:
     """Kernel for a choice of law classes in a certain state."""
     kinds = dict.fromkeys(zip(classes, lengths, strict=True))
     own = [kind for kind in kinds if not is_ours(kind[0])]
     injected: dict[str, Any] = {}
+    given: dict[str, Any] = {"motored_pressure": motored_pressure, "width": width}
     try:
-        text = compose(classes, modules, motored_pressure=motored_pressure)
+        text = compose(classes, modules, **given)
     except NoSource as error:
         warn_if_edited(error)
-        text = compose(classes, modules, motored_pressure=motored_pressure, injected=injected)
+        text = compose(classes, modules, injected=injected, **given)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     # What is compiled from bytecode is not kept: the text does not say all of it.
-    return Kernel(*load(text, "kernel", injected, keeps=not injected), own)
+    kind = "kernel" if width == 1 else "lanes"
+    return Kernel(*load(text, kind, injected, keeps=not injected), own)

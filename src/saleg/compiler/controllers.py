@@ -17,7 +17,7 @@ from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.module import load
 from saleg.compiler.records import lengths_of_all, names_of, numbers_of
 from saleg.compiler.source import fingerprint, is_ours
-from saleg.compiler.text import COMPILED_HEADER, methods_text, own_text
+from saleg.compiler.text import CHOICE, COMPILED_HEADER, methods_text, own_text
 from saleg.errors import LawError
 from saleg.kernel import layout
 from saleg.kernel.tuples import Control
@@ -102,7 +102,7 @@ def _text(
 ) -> str:
     """Text of a controller's module."""
     parts = ["import math", "from collections import namedtuple", "import numba"]
-    parts += ["import numpy as np", COMPILED_HEADER, own_text("laws/arguments.py")]
+    parts += ["import numpy as np", COMPILED_HEADER, CHOICE, own_text("laws/arguments.py")]
     places, first = [], 0
     for (slot, base), law, long in zip(CONTROL_SLOTS.items(), classes, lengths, strict=True):
         (method,) = base.compiled

@@ -12,7 +12,7 @@ from saleg.compiler import machine_code
 from saleg.compiler.module import load
 from saleg.compiler.records import Lengths, record_of_kind
 from saleg.compiler.slips import shown
-from saleg.compiler.text import COMPILED_HEADER, methods_text, own_text
+from saleg.compiler.text import CHOICE, COMPILED_HEADER, methods_text, own_text
 from saleg.laws.base import Law
 from saleg.laws.control.base import MEMORY
 
@@ -44,7 +44,7 @@ def _trouble(law: Any, lengths: Lengths, method: str, base: type[Law]) -> str:
     """What is wrong with one method; empty if nothing is."""
     injected: dict[str, Any] = {}
     definitions = methods_text(law, method, "one", base, injected)
-    parts = ["import math", "import numba", "import numpy as np", COMPILED_HEADER]
+    parts = ["import math", "import numba", "import numpy as np", COMPILED_HEADER, CHOICE]
     parts += [own_text("laws/arguments.py"), *definitions]
     module = load("\n".join(parts), "diagnosis", injected, keeps=False).module
     function = getattr(module, f"one_{method}")

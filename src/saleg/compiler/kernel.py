@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import types
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
@@ -12,6 +13,10 @@ from saleg.compiler.cache import Kept
 from saleg.compiler.diagnosis import Kind, diagnosed
 from saleg.errors import LawError
 from saleg.files.lock import locked
+
+log = logging.getLogger(__name__)
+#: What is logged before something is compiled that is not on disk.
+COMPILING = "compiling the equations for this choice of laws: once, some 20 s"
 
 
 class Kernel:
@@ -54,6 +59,12 @@ class Kernel:
             self._addresses[name] = machine_code.address(*self._compiled(name, arguments))
         return self._addresses[name]
 
+    def is_kept(self, name: str) -> bool:
+        """Whether machine code of an entry point is there: in this process, or on disk."""
+        if name in self._entries or name in self._addresses:
+            return True
+        return self._kept is not None and self._kept.has_code(name)
+
     def _compiled(
         self, name: str, arguments: tuple[Any, ...]
     ) -> tuple[Callable[..., Any], machine_code.Types]:
@@ -70,6 +81,9 @@ class Kernel:
         def compile_now() -> None:
             machine_code.compile_for(function, kinds)
 
+        kept = self._kept
+        if kept is None or not machine_code.is_on_disk(function, kept.path, kept.code):
+            log.info(COMPILING)
         try:
             if self._kept is None:
                 compile_now()

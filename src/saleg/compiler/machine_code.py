@@ -100,6 +100,11 @@ def folder_of(path: Path) -> Path:
         raise PermissionError(str(error)) from None
 
 
+def is_on_disk(function: Any, path: Path, folder: Path) -> bool:
+    """Whether a folder of machine code seems to hold that of a function of a file."""
+    return any(folder.glob(f"{path.stem}.{function.__name__}-*.nbi"))
+
+
 def compile_for(function: Any, types: Types) -> None:
     """Compile a function for arguments of some types, or load its machine code."""
     compile_now = getattr(function, "compile", None)

@@ -29,6 +29,7 @@ from saleg.kernel.tuples import Control
 from saleg.laws import Law
 from saleg.laws.arguments import Signals
 from saleg.laws.base import CHAMBER_SLOTS
+from saleg.laws.choice import any_of, where
 
 #: What sets up a run, as text.
 COLUMNS = (
@@ -114,6 +115,7 @@ def on_columns() -> SimpleNamespace:
     """
     names: dict[str, Any] = {"__name__": "saleg.kernel (columns)"}
     names |= dict.fromkeys(("inline", "compiled", "cached"), lambda function: function)
+    names |= {"any_of": any_of, "where": where}
     for name in COLUMNS:
         exec(compile(own_text(name), name, "exec"), names)
     names |= {name: getattr(columns, name) for name in ("exp", "log", "sin")}

@@ -24,7 +24,7 @@ from saleg.compiler.imported_text import found_text
 from saleg.compiler.slips import check_own, check_returns, check_shown, check_statements, shown
 from saleg.compiler.strength_reduction import eased
 from saleg.errors import LawError
-from saleg.laws import arguments
+from saleg.laws import arguments, choice
 from saleg.laws.base import Law
 from saleg.laws.contract import plain_function
 from saleg.laws.earlier_names import ATTRIBUTES
@@ -272,6 +272,8 @@ def _library_name(name: str, value: Any) -> str | None:
         return "math" if value is math else "np"
     if isinstance(value, type) and value.__module__ == arguments.__name__:
         return value.__name__
+    if value in (choice.where, choice.any_of):
+        return str(value.__name__)
     if callable(value):
         for module, prefix in ((math, "math"), (np, "np")):
             own = getattr(value, "__name__", name)

@@ -8,6 +8,7 @@ and the step of the adaptive pair (:mod:`~saleg.compiler.unrolled`).
 from __future__ import annotations
 
 import ast
+import hashlib
 import inspect
 import pkgutil
 from collections.abc import Sequence
@@ -63,6 +64,8 @@ SEARCH = (
     "kernel/orbit.py",
     "kernel/orbits.py",
     "kernel/differences.py",
+    "kernel/lanes/group.py",
+    "kernel/lanes/search.py",
     "compiler/run_at.py",
 )
 INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "differences", "run_plainly")
@@ -90,6 +93,29 @@ compiled = numba.njit(
     pipeline_class=INNER,
 )
 """
+#: Choices (:mod:`saleg.laws.choice`) for one engine.
+CHOICE = """\
+@inline
+def where(condition, a, b):
+    return a if condition else b
+
+@inline
+def any_of(condition):
+    return condition
+"""
+#: What a module for several engines side by side takes in, its text known by its digest.
+LANES = """\
+# Numbers of lanes: {digest}
+from saleg.compiler.lanes import functions
+from saleg.compiler.lanes.storage import numbers_of, records_of, rows_of, tables_of
+from saleg.compiler.lanes.values import lane_bits
+from saleg.laws.choice import any_of, where
+
+WIDTH = {width}
+"""
+#: Files of that text, and those that step such engines.
+NUMBERS_OF_LANES = ("values", "functions", "storage")
+STEPS_OF_LANES = ("compiler/run_at.py", "kernel/lanes/group.py", "compiler/lanes/advance.py")
 #: What a module is loaded with says whether it is kept.
 CACHED = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)\n'
 
@@ -100,6 +126,7 @@ def compose(
     *,
     motored_pressure: bool = False,
     injected: dict[str, Any] | None = None,
+    width: int = 1,
 ) -> str:
     """Text of a composed module.
 
@@ -113,6 +140,8 @@ def compose(
         Whether the motored pressure is integrated.
     injected : dict, optional
         Takes the methods whose source cannot be had, by the names the text calls them.
+    width : int
+        Engines that are stepped side by side; 1 for an integrator of one.
 
     Raises
     ------
@@ -123,21 +152,31 @@ def compose(
     """
     n = len(CHAMBER_SLOTS)
     left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
-    parts = [*_header(), *map(own_text, BEFORE_SLOTS)]
+    choice = CHOICE if width == 1 else _lanes(width)
+    parts = [*_header(), choice, *map(own_text, BEFORE_SLOTS)]
     eases = "rhs" in modules
     for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
         parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
     for (name, base), law in zip(OTHER_SLOTS.items(), rest, strict=True):
         parts += _engine_slot(name, base, law, injected)
     needs = Needs.of(classes, motored_pressure)
-    parts += [_kernel_text(name, needs) for name in modules]
+    parts += [_kernel_text(name, needs, width) for name in modules]
+    if width > 1:
+        parts += map(own_text, STEPS_OF_LANES)
     return _joined(parts)
 
 
-def _kernel_text(name: str, needs: Needs) -> str:
+def _lanes(width: int) -> str:
+    """What a module for several engines side by side begins with."""
+    texts = "".join(own_text(f"compiler/lanes/{name}.py") for name in NUMBERS_OF_LANES)
+    return LANES.format(digest=hashlib.sha256(texts.encode()).hexdigest(), width=width)
+
+
+def _kernel_text(name: str, needs: Needs, width: int) -> str:
     """Text of a module of the kernel, or of what stands in its place."""
     if name == "needs":
-        written = needs.text
+        # Nobody commands engines that are stepped side by side.
+        written = f"{needs.text}MOTORING_IS_POSSIBLE = {width == 1}\n"
     elif name == "adaptive":
         written = adaptive_step(needs.states, needs.kept, needs.sums)
     else:

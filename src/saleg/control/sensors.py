@@ -15,7 +15,7 @@ from saleg.kernel.control import write_signals
 from saleg.laws.arguments import Signals, Stroke
 from saleg.laws.usual import GAP
 from saleg.quantities import Quantities, problems, quantity
-from saleg.simulation.indicators import compression_ratio
+from saleg.simulation.indicators import compression_ratio, own_compression_ratio
 from saleg.simulation.initial_state import State
 
 
@@ -105,20 +105,29 @@ class Measurement:
             x=x,
             stroke=stroke,
             compression_ratio=float(compression_ratio(self._engine, min(ends), max(ends))),
+            x_left=min(ends),
+            x_right=max(ends),
+            compression_ratio_left=self._of_side(0, *ends),
+            compression_ratio_right=self._of_side(1, *ends),
             frequency=frequency,
             power=power,
-            regulated_weight=self._regulated(true, stroke, frequency),
+            regulated_weight=self._regulated(true, ends, frequency),
         )
         self._late.append(seen)
         return self._shown(true)
 
-    def _regulated(self, true: Signals, stroke: float, frequency: float) -> float:
+    def _of_side(self, side: int, *ends: float) -> float:
+        """Compression ratio of one chamber between two positions."""
+        return float(own_compression_ratio(self._engine, side, min(ends), max(ends)))
+
+    def _regulated(self, true: Signals, ends: tuple[float, float], frequency: float) -> float:
         """Load weight the regulator asks for when it goes by the stroke measured."""
         if frequency <= 0.0:
             return true.regulated_weight
         area = 0.5 * sum(self._engine.piston_areas)
         most = true.maximum_stroke
-        seen = Stroke(stroke, 0.5 / frequency, most, 0.5 * most, area, 0.0, 0.0)
+        stroke, duration = abs(ends[1] - ends[0]), 0.5 / frequency
+        seen = Stroke(stroke, duration, most, 0.5 * most, area, 0.0, 0.0, min(ends), max(ends))
         return float(self._engine.alternator.at_dead_centre(true.regulated_weight, seen))
 
     def _shown(self, true: Signals) -> Signals:

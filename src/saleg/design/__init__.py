@@ -28,6 +28,7 @@ from saleg.design.masses import (
     MassModel,
     MechanicalSprings,
     PistonHeads,
+    UnlikePistons,
 )
 from saleg.design.operation import Operation
 from saleg.design.parameters import Parameters
@@ -53,6 +54,7 @@ __all__ = [
     "Parameters",
     "PistonHeads",
     "Score",
+    "UnlikePistons",
     "evaluate",
     "evaluate_many",
     "formulas",

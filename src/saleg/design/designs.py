@@ -11,7 +11,7 @@ from typing import Any
 from saleg.design.formulas import port_clearance
 from saleg.design.masses import MassModel
 from saleg.design.parameters import Parameters
-from saleg.engine import Cylinder, Engine
+from saleg.engine import BounceChamber, Cylinder, Engine
 from saleg.engine.paths import claimed, exists, known_paths, unit_of, with_value
 from saleg.engine.paths import get as get_path
 from saleg.errors import UnknownPath, WrongFields, nearest
@@ -62,7 +62,8 @@ class Design:
         The eight of Table 8.
     laws : Engine
         Everything else: laws and empirical constants. What the eight parameters say, and the
-        moving mass, is replaced. It must be mirrored.
+        moving mass, is replaced. It must be mirrored, or have a cylinder on the left and a gas
+        spring on the right, which stays as it is.
     masses : MassModel
         How heavy the components are.
 
@@ -113,7 +114,7 @@ class Design:
             laws,
             translator=dataclasses.replace(laws.translator, mass=moving_mass),
             left=cylinder,
-            right=cylinder,
+            right=cylinder if laws.is_mirrored else laws.right,
             springs=dataclasses.replace(springs, stiffness=p.spring_stiffness),
         )
 
@@ -230,10 +231,12 @@ class Design:
         """What keeps the eight parameters from being put into the engine."""
         laws, wrong = self.laws, []
         springs: Any = laws.springs
-        if not laws.is_mirrored:
-            wrong.append("must be a mirrored engine")
+        if not laws.is_mirrored and not isinstance(laws.right, BounceChamber):
+            wrong.append("must be a mirrored engine, or have a gas spring on the right")
         elif not isinstance(laws.left, Cylinder):
-            wrong.append("must have cylinders with ports on both sides")
+            wrong.append("must have cylinders with ports, on both sides or on the left")
+        elif "egr" not in {item.name for item in fields(laws.left.gas_exchange)}:  # type: ignore[arg-type]
+            wrong.append("must have a gas exchange with a share of exhaust gas retained, egr")
         if "stiffness" not in {item.name for item in fields(springs)}:
             wrong.append("must have springs with a stiffness")
         return [Problem("laws", laws.name, "-", why) for why in wrong]

@@ -68,9 +68,9 @@ class DesignSolver:
 class DesignSolverOfColumns(DesignSolver):
     """The same of designs that are independent of each other."""
 
-    def columns(self, points: Sequence[Values]) -> Columns:
-        """Rows of some designs, column by column."""
-        how = self._rtol, self._effort, self._multipliers
+    def columns(self, points: Sequence[Values], total: int) -> Columns:
+        """Rows of some designs of a batch of so many, column by column."""
+        how = self._rtol, self._effort, total, self._multipliers
         together = solved_together(self._design, points, *how)
         return filled_up(len(points), together, lambda place: self(points[place]))
 

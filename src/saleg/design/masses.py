@@ -107,6 +107,31 @@ class PistonHeads:
         return formulas.piston_mass(parameters.bore)
 
 
+@dataclass(frozen=True, kw_only=True)
+class UnlikePistons(Quantities):
+    """Head of the cylinder's piston and that of a gas spring's (Eq. 65, half of it each).
+
+    Parameters
+    ----------
+    gas_spring_bore : float
+        Bore of the gas spring [m].
+
+    Examples
+    --------
+    >>> pistons = UnlikePistons(gas_spring_bore=Parameters().bore)
+    >>> at = Operation(0.1807, 47.0, 22.6e3)
+    >>> pistons.mass(Parameters(), at) == PistonHeads().mass(Parameters(), at)
+    True
+    """
+
+    gas_spring_bore: float = quantity("m", default=0.064, low=0, open_low=True)
+
+    def mass(self, parameters: Parameters, operation: Operation) -> float:
+        """Mass of both heads [kg]."""
+        bores = parameters.bore, self.gas_spring_bore
+        return 0.5 * (formulas.piston_mass(bores[0]) + formulas.piston_mass(bores[1]))
+
+
 @dataclass(frozen=True)
 class ConnectingRod(Quantities):
     """Rod from piston to piston (Eq. 62, 63, 66).

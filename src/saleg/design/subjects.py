@@ -108,11 +108,11 @@ class EngineSolver:
         found = found_steady_state(self.engine.replace(**values), self.rtol, effort=self.effort)
         return steady_row(found, self.multipliers)
 
-    def columns(self, points: Sequence[Values]) -> Columns:
-        """Rows of some points, column by column."""
+    def columns(self, points: Sequence[Values], total: int) -> Columns:
+        """Rows of some points of a sweep of so many, column by column."""
         columns = {name: np.array([values[name] for values in points]) for name in points[0]}
         lots = rows_of_columns(self.engine, columns)
-        how = self.rtol, self.multipliers, self.effort
+        how = self.rtol, self.multipliers, self.effort, total
         return steady_columns(lots, lambda place: self(points[place]), len(points), *how)
 
 

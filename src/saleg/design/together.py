@@ -56,6 +56,7 @@ def solved_together(
     points: Sequence[Values],
     rtol: float,
     effort: Effort,
+    total: int,
     multipliers: bool = False,
 ) -> list[tuple[np.ndarray, Columns]]:
     """Columns of those designs whose loop closes where the first start leads, and their places.
@@ -68,6 +69,8 @@ def solved_together(
     rtol : float
         Tolerance of the integrator, and of the mass.
     effort : Effort
+    total : int
+        Number of designs in the batch they are a piece of.
     multipliers : bool
         Whether to differentiate each steady state.
     """
@@ -76,7 +79,7 @@ def solved_together(
         return []
     lots = []
     for lot, mirrored in _lots(designs, len(points)):
-        orbits = _closed(designs, lot, mirrored, rtol, effort)
+        orbits = _closed(designs, lot, mirrored, rtol, effort, total)
         if orbits is not None:
             lots += _columns(designs, orbits, rtol, multipliers)
     return lots
@@ -102,7 +105,7 @@ def _lots(designs: Designs, count: int) -> list[tuple[Rows, bool]]:
 
 
 def _closed(
-    designs: Designs, lot: Rows, mirrored: bool, rtol: float, effort: Effort
+    designs: Designs, lot: Rows, mirrored: bool, rtol: float, effort: Effort, total: int
 ) -> Orbits | None:
     """Orbits whose mass is that of their components, the mass renewed by every map."""
     numbers = np.full((1 + len(LAW), lot.count), math.nan)
@@ -123,7 +126,7 @@ def _closed(
     taken = (QUICK_MAPS, QUICK_STEPS) if effort is Effort.QUICK else (MAX_MAPS, STEPS_PER_CALL)
     limits = Limits(*taken, MAX_MISSED)
     numbers = np.array([values[lot.places] for values in designs.values.values()]).T
-    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, tell, numbers)
+    orbits = searched(_of_mass(lot, guess), mirrored, rtol, limits, total, tell, numbers)
     return None if orbits is None else orbits._replace(rows=_of_mass(orbits.rows, orbits.mass))
 
 

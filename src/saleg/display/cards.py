@@ -112,7 +112,7 @@ def stability_card(stability: Stability) -> str:
     angle = np.linspace(0.0, 2.0 * math.pi, 73)
     circle = Curve(np.cos(angle), np.sin(angle), "currentColor")
     dots = Curve(multipliers.real, multipliers.imag, RIGHT, points=True)
-    plane = chart("multipliers", [circle, dots], "real part", "imaginary part", size=(230.0, 220.0))
+    plane = chart("multipliers", [circle, dots], "real part", "imaginary part", size=(230.0, 206.0))
     told = "multipliers of the cycle, and the unit circle: inside it disturbances die away"
     return card(f"stability: {stability.kind}", told, figures(rows), plane)
 

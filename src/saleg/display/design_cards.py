@@ -10,7 +10,7 @@ import numpy as np
 from saleg.design.results import COMPONENT_UNITS
 from saleg.display.cards import bars, steady_card
 from saleg.display.numbers import number, shown
-from saleg.display.page import card, figures
+from saleg.display.page import card, figures, raised
 from saleg.display.svg import LEFT, RIGHT, Curve, chart
 from saleg.simulation.performance import UNITS
 from saleg.simulation.readable import readable
@@ -65,13 +65,17 @@ def found_card(found: Found) -> str:
 def branch_card(branch: Branch) -> str:
     """Where a branch of steady states leads, and stroke and efficiency along it."""
     table = branch.table
-    along = table[branch.path].to_numpy(dtype=float)
+    read = readable(branch.path, branch.unit)
+    along = read.of(table[branch.path].to_numpy(dtype=float))
     rows = [
         ("steady states", str(len(table)), ""),
-        ("from", number(along[0]), branch.unit),
-        ("to", number(along[-1]), branch.unit),
-        *(("fold at", number(value), branch.unit) for value in branch.folds),
-        *((kind, f"at {number(value)}", branch.unit) for value, kind in branch.stability_changes),
+        ("from", number(along[0]), read.unit),
+        ("to", number(along[-1]), read.unit),
+        *(("fold at", number(read.of(value)), read.unit) for value in branch.folds),
+        *(
+            (kind, f"at {number(read.of(value))}", read.unit)
+            for value, kind in branch.stability_changes
+        ),
     ]
     pictures = []
     for name in ("stroke", "efficiency"):
@@ -88,10 +92,8 @@ def branch_card(branch: Branch) -> str:
             for rows_of, colour, words in ((stable, LEFT, "stable"), (~stable, RIGHT, "unstable"))
         ]
         size = (300.0, 200.0)
-        pictures.append(
-            chart(name, curves, f"{branch.path} [{branch.unit}]", drawn.label, size=size)
-        )
-    told = f"steady states along {branch.path}; {branch.ended}"
+        pictures.append(chart(name, curves, raised(read.label), drawn.label, size=size))
+    told = f"steady states along {read.words}; {branch.ended}"
     return card(branch.engine.name, told, figures(rows), *pictures)
 
 

@@ -14,6 +14,8 @@ from saleg.engine import Engine
 
 #: Width of a drawing [px], thickness of walls [mm], turns of a spring.
 WIDTH, WALL, TURNS = 520.0, 4.0, 9
+#: Room above a drawing for the names of parts, and size of text [px].
+ABOVE, TEXT = 40.0, 14
 _COLOURS = {"left": LEFT, "right": RIGHT}
 
 
@@ -24,18 +26,48 @@ def drawing(engine: Engine) -> str:
     reach = 0.5 * max(mm["mover_outer_diameter"] for mm in sides.values()) + 3.0 * WALL
     scale = 0.5 * WIDTH / end
     # In mm from the midpoint, y upward: the picture is symmetric, so its sign does not matter.
-    place = f"translate({0.5 * WIDTH:g} {reach * scale:.1f}) scale({scale:.4f})"
+    middle = ABOVE + reach * scale
+    place = f"translate({0.5 * WIDTH:g} {middle:.1f}) scale({scale:.4f})"
     parts = [part for side, mm in sides.items() for part in _side(side, mm)]
     parts += _mover(sides["left"])
+    below = middle + reach * scale + TEXT
+    look: dict[str, Any] = {"font_size": TEXT}
     names = [
-        text(0.5 * WIDTH, 2.0 * reach * scale + 12, "alternator", text_anchor="middle"),
-        text(2, 2.0 * reach * scale + 12, _name(engine, "left")),
-        text(WIDTH - 2, 2.0 * reach * scale + 12, _name(engine, "right"), text_anchor="end"),
-        *_rule(scale, 2.0 * reach * scale + 26),
+        text(2, below, _name(engine, "left"), **look),
+        text(WIDTH - 2, below, _name(engine, "right"), text_anchor="end", **look),
+        *_rule(scale, below - 5),
+        *_named(sides, scale, middle),
     ]
-    height = 2.0 * reach * scale + 34
     section = tag("g", "".join(parts), transform=place)
-    return picture(WIDTH, height, f"section of {engine.name}", section, *names)
+    return picture(WIDTH, below + 8, f"section of {engine.name}", section, *names)
+
+
+def _named(sides: dict[str, dict[str, float]], scale: float, middle: float) -> list[str]:
+    """Names of parts in a row above a drawing, each with a line to its part."""
+    # Those of a chamber on a side that has one, the others on the side across.
+    gas, bare = ("left", "right") if sides["left"]["bore"] else ("right", "left")
+    mm, sign, across, away = sides[gas], SIDES[gas], sides[bare], SIDES[bare]
+    foot = mm["crown"] - 0.5e3 * formulas.SKIRT_LENGTH
+    mover = 0.25 * (mm["mover_outer_diameter"] + mm["mover_inner_diameter"])
+    coil, rod = 0.25 * mm["mover_inner_diameter"], 0.25 * mm["rod_diameter"]
+    points = {
+        "head": (sign * (mm["head"] + 0.5 * WALL), 0.5 * mm["bore"]),
+        "piston": (sign * foot, 0.3 * mm["bore"]),
+        "ports": (sign * (mm["port"] - 0.5 * WALL), 0.5 * mm["bore"] + 0.5 * WALL),
+        "mover": (0.0, mover),
+        "spring": (away * 0.5 * (across["mover_end"] + across["bearing"]), coil),
+        "bearing": (away * (across["bearing"] + 0.5 * WALL), coil),
+        "rod": (away * 0.5 * (across["bearing"] + across["crown"]), rod),
+    }
+    known = {name: at for name, at in points.items() if not math.isnan(at[0])}
+    names, found = sorted(known, key=lambda name: known[name][0]), []
+    for place, name in enumerate(names):
+        x = WIDTH * (place + 0.5) / len(names)
+        to = 0.5 * WIDTH + scale * known[name][0], middle - scale * known[name][1]
+        found.append(text(x, TEXT, name, text_anchor="middle", font_size=TEXT))
+        found.append(path([(x, TEXT + 4.0), to], stroke="currentColor", stroke_width=0.9))
+        found.append(tag("circle", cx=to[0], cy=to[1], r=2.0))
+    return found
 
 
 def _side(side: str, mm: dict[str, float]) -> list[str]:
@@ -105,6 +137,6 @@ def _rule(scale: float, y: float) -> list[str]:
     length = next(
         step for step in (500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 1.0) if step * scale < 160.0
     )
-    x = 0.5 * (WIDTH - length * scale)
+    x = 0.5 * (WIDTH - length * scale) - 25.0
     bar = path([(x, y), (x + length * scale, y)], stroke="currentColor", stroke_width=2)
-    return [bar, text(x + length * scale + 6, y + 4, f"{length:g} mm")]
+    return [bar, text(x + length * scale + 6, y + 5, f"{length:g} mm", font_size=TEXT)]

@@ -36,6 +36,8 @@ _WORDS = {
     "port_closing": "clearance at port closing",
     "spring.stiffness": "spring stiffness",
     "intake.pressure": "intake pressure",
+    "pressure": "pressure opposite the cylinder",
+    "temperature": "temperature opposite the cylinder",
     "friction.coefficient": "friction coefficient",
     "alternator.load_constant": "load constant",
 }

@@ -74,8 +74,8 @@ def chart(
 ) -> str:
     """Curves on axes with ticks, and their names below the title's place."""
     width, height = size
-    named = [curve for curve in curves if curve.name]
-    top = _TOP + (16.0 if named else 0.0)
+    named = _legend([curve for curve in curves if curve.name], _LEFT, width)
+    top = _TOP + 16.0 * len(named)
     across = _Axis.around([curve.x for curve in curves], _LEFT, width - _RIGHT)
     up = _Axis.around([curve.y for curve in curves], height - _BOTTOM, top, from_zero)
     faint: dict[str, Any] = {"stroke": "currentColor", "stroke_opacity": 0.18}
@@ -91,8 +91,7 @@ def chart(
     middle = 0.5 * (top + up.start)
     parts.append(text(11, middle, y_label, text_anchor="middle", transform=turned))
     parts += [_drawn(curve, across, up) for curve in curves]
-    parts += _legend(named, across.start)
-    return picture(width, height, title, *parts)
+    return picture(width, height, title, *parts, *named)
 
 
 def path(points: Iterable[tuple[float, float]], **look: Any) -> str:
@@ -161,16 +160,22 @@ def _sparse(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.unique(np.concatenate([np.minimum(spread, len(x) - 1), ends]))
 
 
-def _legend(named: Sequence[Curve], x: float) -> list[str]:
-    """Names of curves above a chart, each behind a piece of its line."""
-    parts = []
+def _legend(named: Sequence[Curve], start: float, width: float) -> list[str]:
+    """Rows of names of curves above a chart, each behind a piece of its line."""
+    rows: list[str] = []
+    x = width
     for curve in named:
+        room = 40.0 + 6.4 * len(curve.name)
+        if x + room > width:
+            rows.append("")
+            x = start
+        y = 16.0 * len(rows) - 7.0
         dash: dict[str, Any] = {"stroke_dasharray": "6 4"} if curve.dashed else {}
         look: dict[str, Any] = {"stroke": curve.colour, "stroke_width": 2.4, **dash}
-        parts.append(tag("line", x1=x, x2=x + 20, y1=9, y2=9, **look))
-        parts.append(text(x + 25, 13, curve.name))
-        x += 40 + 6.4 * len(curve.name)
-    return parts
+        rows[-1] += tag("line", x1=x, x2=x + 20, y1=y, y2=y, **look)
+        rows[-1] += text(x + 25, y + 4, curve.name)
+        x += room
+    return rows
 
 
 def _shown(value: Any) -> str:

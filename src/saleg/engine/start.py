@@ -18,6 +18,8 @@ from saleg.quantities import Quantities, quantity
 
 #: Exponent with which a start guesses the state of a charge compressed from port closing.
 COMPRESSION_EXPONENT = 1.35
+#: Halvings of the range in which an engine rests: to the last digits of a number.
+HALVINGS = 60
 #: Mass behind an open end [kg]: nobody follows it, but its logarithm is taken.
 NO_GAS = 1e-300
 
@@ -156,11 +158,17 @@ class MidpointVelocity(Start):
 class AtRest(Start):
     """At rest at the midpoint, both cylinders closed and filled at the intake's state (Ch. 5).
 
-    There is no fuel in them: nothing is metered before the ports have opened once.
+    A cylinder alone, or opposite a gas spring, rests where springs balance the air that its ports
+    have enclosed, which is far from the midpoint. There is no fuel in a cylinder: nothing is
+    metered before the ports have opened once.
     """
 
     def initial(self, engine: Any) -> Initial:
         """State of the engine at time zero."""
+        if _burns_fuel(engine.left) != _burns_fuel(engine.right):
+            x = _resting_position(engine)
+            held = _without_fuel(engine.left, x), _without_fuel(engine.right, -x)
+            return Initial(x, 0.0, True, 0.0, 0.0, *held)
         return Initial(0.0, 0.0, True, 0.0, 0.0, _resting(engine.left), _resting(engine.right))
 
 
@@ -270,6 +278,30 @@ def _resting(chamber: Any) -> Contents:
     full = chamber.reference_state
     mass = charge_mass(chamber) * chamber.half_stroke / full.clearance
     return Contents(False, False, False, full.pressure, mass, 0.0, mass, 0.0)
+
+
+def _without_fuel(chamber: Any, displacement: float) -> Contents:
+    """What a chamber holds as in :func:`contents`, but air in place of a mixture."""
+    held = contents(chamber, displacement)
+    if not _burns_fuel(chamber):
+        return held
+    return held._replace(armed=False, fuel=0.0, air=held.mass, burnt=0.0)
+
+
+def _resting_position(engine: Any) -> float:
+    """Position at which the forces of gas and springs balance [m]; short of a head at the most."""
+    left, right = engine.left, engine.right
+    low, high = 2.0 * left.head_gap - left.half_stroke, right.half_stroke - 2.0 * right.head_gap
+    areas = engine.piston_areas
+    for _ in range(HALVINGS):
+        x = 0.5 * (low + high)
+        force = areas[0] * contents(left, x).pressure - areas[1] * contents(right, -x).pressure
+        force += engine.back_force
+        if force + engine.springs.force(Motion(0.0, x, 0.0, 0.0)) > 0.0:
+            low = x
+        else:
+            high = x
+    return 0.5 * (low + high)
 
 
 def _stored_energy(engine: Any, charged: Chamber, x: float, held: Contents, lit: bool) -> float:

@@ -1,5 +1,6 @@
 """Real fuels: heating values, stoichiometry and the gas they make, from data of the species."""
 
+from saleg.fuels.delays import compute_delays, ignition_delays
 from saleg.fuels.filling import fill
 from saleg.fuels.mixtures import gas_of
 from saleg.fuels.real_fuel import FuelError, RealFuel, blend, pure
@@ -30,11 +31,13 @@ __all__ = [
     "RealFuel",
     "ammonia",
     "blend",
+    "compute_delays",
     "dimethyl_ether",
     "ethanol",
     "fill",
     "gas_of",
     "hydrogen",
+    "ignition_delays",
     "iso_octane",
     "methane",
     "methanol",

@@ -67,8 +67,8 @@ class RealFuel:
     def lower_heating_value(self) -> float:
         """Lower heating value [J/kg], at 298.15 K from and to gases."""
         formed = {name: all_species()[name].formation_enthalpy for name in all_species()}
-        before = added(self.moles, self._air(1.0))
-        after = self._burnt(1.0)
+        before = self.fresh(1.0)
+        after = self.burnt(1.0)
         released = sum(amount * formed[name] for name, amount in before.items())
         released -= sum(amount * formed[name] for name, amount in after.items())
         return released / self.molar_mass
@@ -106,22 +106,20 @@ class RealFuel:
             wrong.append(f"burnt = {shown(burnt)}: must be a number >= 0 and <= 1")
         if wrong or ratio is None or share is None:
             raise FuelError("\n".join(wrong))
-        fresh = added(times(ratio, self.moles), self._air(1.0))
-        gone = self._burnt(ratio)
+        fresh, gone = self.fresh(ratio), self.burnt(ratio)
         return gas_of(
             added(times((1.0 - share) / mass_of(fresh), fresh), times(share / mass_of(gone), gone))
         )
 
-    def _air(self, share: float) -> dict[str, float]:
-        """Air that a mole of fuel takes, times a share."""
-        oxygen = share * self.oxygen
-        return {"oxygen": oxygen, "nitrogen": NITROGEN * oxygen}
+    def fresh(self, equivalence_ratio: float) -> dict[str, float]:
+        """Molecules of fresh charge with the air of a mole of fuel [mol]."""
+        return added(times(equivalence_ratio, self.moles), self._air(1.0))
 
-    def _burnt(self, ratio: float) -> dict[str, float]:
-        """What `ratio` moles of fuel and the air of one burn to; surplus of either stays."""
-        burning, atoms = min(ratio, 1.0), self.atoms
+    def burnt(self, equivalence_ratio: float) -> dict[str, float]:
+        """Molecules that charge burns to [mol]; surplus of fuel or air stays."""
+        burning, atoms = min(equivalence_ratio, 1.0), self.atoms
         return added(
-            times(ratio - burning, self.moles),
+            times(equivalence_ratio - burning, self.moles),
             self._air(1.0 - burning),
             {
                 "carbon dioxide": burning * atoms.C,
@@ -129,6 +127,11 @@ class RealFuel:
                 "nitrogen": burning * (NITROGEN * self.oxygen + atoms.N / 2.0),
             },
         )
+
+    def _air(self, share: float) -> dict[str, float]:
+        """Air that a mole of fuel takes, times a share."""
+        oxygen = share * self.oxygen
+        return {"oxygen": oxygen, "nitrogen": NITROGEN * oxygen}
 
     def __repr__(self) -> str:
         return f"<RealFuel {self.name!r}>"

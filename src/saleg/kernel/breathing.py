@@ -57,15 +57,15 @@ def breathes(C, side):
 
 
 @inline
-def stands_open(C, side):
-    """Whether the ports of a chamber are open and hold it at the state of its intake."""
-    return C[side].mode == OPEN and not by_flow(C, side)
-
-
-@inline
 def by_flow(C, side):
     """Whether gas flows through the ports of a chamber while they are open."""
     return CONTENTS_ARE_WANTED and C[side].by_flow > 0.0
+
+
+@inline
+def has_own_pressure(C, side):
+    """Whether the state of a chamber is its own; open ports may hold it at that of its intake."""
+    return (C[side].mode != OPEN) | by_flow(C, side)
 
 
 @inline
@@ -249,14 +249,6 @@ def chamber_flows(P, C, side, y, gas):
         drawn_burnt=fed * burnt_share - drawn_back * burnt_out,
         drawn_enthalpy=fed * from_supply * h_supply - drawn_back * h,
     )
-
-
-@inline
-def flows_of(P, C, side, y, gas):
-    """Flows of a chamber, none if it is tight."""
-    if breathes(C, side):
-        return chamber_flows(P, C, side, y, gas)
-    return no_flows()
 
 
 @inline

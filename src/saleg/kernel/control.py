@@ -17,14 +17,28 @@ from saleg.laws.arguments import Commands
 NEAREST = 1.0 - 1e-9
 
 
+@inline
+def between_heads(C, low, high):
+    """Two positions, short of the heads [m]."""
+    low = max(low, -NEAREST * C[LEFT].half_stroke)
+    return low, min(high, NEAREST * C[RIGHT].half_stroke)
+
+
+@inline
+def own_compression_ratio(C, side, low, high):
+    """Geometric compression ratio of one chamber between two positions [-]."""
+    low, high = between_heads(C, low, high)
+    near, far = (low, high) if C[side].sign > 0.0 else (high, low)
+    return clearance_of(C, side, far) / clearance_of(C, side, near)
+
+
 @compiled
 def compression_ratio(C, low, high):
     """Geometric compression ratio between two positions, of the cylinders together [-].
 
     Without a cylinder, of both chambers. Heads end the way.
     """
-    low = max(low, -NEAREST * C[LEFT].half_stroke)
-    high = min(high, NEAREST * C[RIGHT].half_stroke)
+    low, high = between_heads(C, low, high)
     alike = (C[LEFT].lower_heating_value > 0.0) == (C[RIGHT].lower_heating_value > 0.0)
     greatest, least = 0.0, 0.0
     for side in range(2):
@@ -46,7 +60,11 @@ def write_signals(E, C, signals):
     signals.x = E.x_dead_centre
     signals.direction = E.direction
     signals.stroke = E.stroke
-    signals.compression_ratio = compression_ratio(C, min(here, before), max(here, before))
+    low, high = min(here, before), max(here, before)
+    signals.compression_ratio = compression_ratio(C, low, high)
+    signals.x_left, signals.x_right = low, high
+    signals.compression_ratio_left = own_compression_ratio(C, LEFT, low, high)
+    signals.compression_ratio_right = own_compression_ratio(C, RIGHT, low, high)
     signals.frequency = 0.5 / E.stroke_duration if E.stroke_duration > 0.0 else 0.0
     signals.power = E.power
     signals.regulated_weight = E.regulated_weight

@@ -28,6 +28,10 @@ def with_motoring(s, motoring):
         maximum_stroke=s.maximum_stroke,
         rated_equivalence_ratio=s.rated_equivalence_ratio,
         rated_intake_temperature=s.rated_intake_temperature,
+        x_left=s.x_left,
+        x_right=s.x_right,
+        compression_ratio_left=s.compression_ratio_left,
+        compression_ratio_right=s.compression_ratio_right,
     )
 
 

@@ -2,7 +2,7 @@
 
 from math import exp, inf, isfinite, log1p, sqrt
 
-from saleg.kernel.breathing import breathes, dilution, mass_of, stands_open
+from saleg.kernel.breathing import breathes, dilution, has_own_pressure, mass_of
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     BREAKPOINT,
@@ -27,6 +27,7 @@ from saleg.kernel.needs import N_WANTED
 from saleg.kernel.rhs import ln_clearance_of, ln_temperature, rhs
 from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
+from saleg.laws.choice import any_of, where
 
 
 @inline
@@ -38,17 +39,17 @@ def event_is_possible(E, C, event):
     if event == DEAD_CENTRE:
         return E.direction != 0.0
     if event == CORNER:
-        return E.direction != 0.0 and isfinite(E.x_breakpoint)
+        return (E.direction != 0.0) & isfinite(E.x_breakpoint)
     side = event % 2
     c = C[side]
     outward = c.sign * E.direction
     if event < LIGHT:
-        return outward < 0.0 if c.mode == OPEN else outward > 0.0
+        return where(c.mode == OPEN, outward < 0.0, outward > 0.0)
     if event < BREAKPOINT:
-        return c.mode == CLOSED and c.armed > DISARMED
+        return (c.mode == CLOSED) & (c.armed > DISARMED)
     if event < HEAD:
-        return c.mode != OPEN and c.ln_breakpoint > 0.0
-    return outward < 0.0 and (c.mode != OPEN or c.port < c.head_gap)
+        return (c.mode != OPEN) & (c.ln_breakpoint > 0.0)
+    return (outward < 0.0) & ((c.mode != OPEN) | (c.port < c.head_gap))
 
 
 @inline
@@ -62,7 +63,7 @@ def event_value(E, C, event, y):
     c = C[side]
     if event < LIGHT:
         beyond = clearance_of(C, side, y[X]) - c.port
-        return -beyond if c.mode == OPEN else beyond
+        return where(c.mode == OPEN, -beyond, beyond)
     if event < BREAKPOINT:
         return y[IGNITION + side] - 1.0
     if event < HEAD:
@@ -193,9 +194,8 @@ def carry(P, E, C, O, stages, t, s, ds, y, k, y_new):
     """Carry the end of a step of length `s` a little further, along the cubic through both ends."""
     end = k[stages]
     u, w = 1.0 + ds / s, -ds / s
-    for n in range(
-        N_WANTED
-    ):  # as an increment: what does not change stays as it is to the last bit
+    # As an increment: what does not change stays as it is to the last bit.
+    for n in range(N_WANTED):
         back = (1.0 + 2.0 * u) * (y[n] - y_new[n]) + u * s * k[0, n]
         y_new[n] += w * w * back - u * u * w * s * end[n]
     if O.peaks > 1 or O.history > 0:  # somebody looks at the rates there
@@ -241,21 +241,22 @@ def expected_event(E, C, y, dy):
     """Next dead centre or place and the time to it, extrapolated; -1 if it is far or imminent."""
     first, earliest, least = -1, 2.0 * E.next_step, 1e-4 * E.next_step
     v, a, jerk = y[V], dy[V], E.jerk
-    if E.direction * v > 0.0 > E.direction * a:
+    slows = (E.direction * v > 0.0) & (E.direction * a < 0.0)
+    if any_of(slows):
         s = -v / a
         s -= (v + s * (a + 0.5 * s * jerk)) / (a + s * jerk)
-        if least < s < earliest:
-            first, earliest = DEAD_CENTRE, s
+        sooner = slows & (least < s) & (s < earliest)
+        first, earliest = where(sooner, DEAD_CENTRE, first), where(sooner, s, earliest)
     for event in (CORNER, PORT, PORT + 1):
-        if v == 0.0 or not event_is_possible(E, C, event):
-            continue
-        way = place_of(E, C, event) - y[X]
-        s = way / v
-        for _ in range(2):
-            rest = s * (v + s * (0.5 * a + s * jerk / 6.0)) - way
-            s -= rest / (v + s * (a + 0.5 * s * jerk))
-        if least < s < earliest:
-            first, earliest = event, s
+        possible = (v != 0.0) & event_is_possible(E, C, event)
+        if any_of(possible):
+            way = place_of(E, C, event) - y[X]
+            s = way / v
+            for _ in range(2):
+                rest = s * (v + s * (0.5 * a + s * jerk / 6.0)) - way
+                s -= rest / (v + s * (a + 0.5 * s * jerk))
+            sooner = possible & (least < s) & (s < earliest)
+            first, earliest = where(sooner, event, first), where(sooner, s, earliest)
     return first, earliest
 
 
@@ -281,8 +282,8 @@ def is_sound(C, y):
         states += y[n]
     for n in range(N_STATE, N_WANTED):
         quadratures += y[n]
-    sound = clearance_of(C, 0, y[X]) > 0.0 and clearance_of(C, 1, y[X]) > 0.0
-    return sound and isfinite(states + quadratures)
+    sound = (clearance_of(C, 0, y[X]) > 0.0) & (clearance_of(C, 1, y[X]) > 0.0)
+    return sound & isfinite(states + quadratures)
 
 
 @inline
@@ -290,8 +291,7 @@ def next_time_event(C, t_end):
     """Earliest known time of an event: breakpoint or end of a combustion, or end of the run."""
     t = t_end
     for side in range(2):
-        if C[side].mode == BURNING:
-            t = min(t, C[side].t_breakpoint)
+        t = where(C[side].mode == BURNING, min(t, C[side].t_breakpoint), t)
     return t
 
 
@@ -305,7 +305,9 @@ def ln_pressure(C, side, x, theta):
 def pressure_and_temperature(C, side, y):
     """Pressure [Pa] and temperature [K] in a chamber, open or closed."""
     c = C[side]
-    if stands_open(C, side):
-        return c.intake_pressure, c.intake_temperature
-    p = exp(ln_pressure(C, side, y[X], y[THETA + side]))
-    return p, p * c.area * clearance_of(C, side, y[X]) / (mass_of(C, side, y) * c.gas_constant)
+    p, T, own = c.intake_pressure, c.intake_temperature, has_own_pressure(C, side)
+    if any_of(own):
+        p = where(own, exp(ln_pressure(C, side, y[X], y[THETA + side])), p)
+        pV = p * c.area * clearance_of(C, side, y[X])
+        T = where(own, pV / (mass_of(C, side, y) * c.gas_constant), T)
+    return p, T

@@ -21,10 +21,13 @@ from saleg.kernel.events import (
 )
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
+    BEGIN,
     BUFFER_FULL,
     CONTROLLER_FAULT,
     DEAD_CENTRE,
+    END_OF_STEP,
     END_OF_TIME,
+    GOES_ON,
     HEAD,
     HEAD_CONTACT,
     LEFT,
@@ -35,6 +38,7 @@ from saleg.kernel.layout import (
     STALLED,
     STEP_FAILURE,
     TOO_MANY_STEPS,
+    WHOLE,
     V,
     X,
 )
@@ -45,6 +49,7 @@ from saleg.kernel.rhs import refresh, rhs
 from saleg.kernel.state import clearance_of, keep_snapshot
 from saleg.kernel.step import error_norm, take_step
 from saleg.kernel.switch import has_room, is_due, switch
+from saleg.laws.choice import where
 
 # Logarithm of the least error the controller remembers of a step.
 MIN_LN_ERROR = -9.21
@@ -53,35 +58,62 @@ MIN_LN_ERROR = -9.21
 @inline
 def proposed_end(E, O, t_event):
     """Time at which the next step should end: grid point or controller's wish, or known event."""
-    wish = (E.grid + 1.0) * O.step if O.adaptive == 0 else E.t + E.next_step
-    if wish >= t_event:
-        return t_event
-    if O.adaptive == 1 and E.t + 2.0 * E.next_step > t_event:
-        return 0.5 * (E.t + t_event)  # two equal steps rather than one and a splinter
-    return wish
+    if O.adaptive == 0:
+        return min((E.grid + 1.0) * O.step, t_event)
+    wish = E.t + E.next_step
+    half = 0.5 * (E.t + t_event)  # two equal steps rather than one and a splinter
+    divides = E.t + 2.0 * E.next_step > t_event
+    return where(wish >= t_event, t_event, where(divides, half, wish))
 
 
 @inline
 def compression(C, y, y_new):
     """Clearance on the side that is compressed at the end of a step over that at its begin."""
-    side = 0 if y_new[V] < 0.0 else 1
-    return min(clearance_of(C, side, y_new[X]) / clearance_of(C, side, y[X]), 1.0)
+    leftward = y_new[V] < 0.0
+    before = where(leftward, clearance_of(C, LEFT, y[X]), clearance_of(C, RIGHT, y[X]))
+    after = where(leftward, clearance_of(C, LEFT, y_new[X]), clearance_of(C, RIGHT, y_new[X]))
+    return min(after / before, 1.0)
 
 
 @inline
 def control_step(E, C, order, h, error, was_rejected, y, y_new):
-    """Set the next step from the error of an accepted one (PI control, Hairer and Wanner).
+    """Next step from the error of an accepted one (PI control, Hairer and Wanner), and its log.
 
     On the way to a head all happens the faster the nearer it is: the step shrinks with the
-    clearance before an error says so.
+    clearance before an error says so. One cut short by a known event keeps the wish at least.
     """
     beta = 0.08
     exponent = 1.0 / order - 0.75 * beta
     ln_error = log(max(error, 1e-10))
     factor = 0.9 * exp(beta * E.ln_last_error - exponent * ln_error)
-    factor = min(max(factor, 0.2), 1.0 if was_rejected else 6.0)
-    E.ln_last_error = max(ln_error, MIN_LN_ERROR)
-    E.next_step = h * factor * compression(C, y, y_new)
+    factor = min(max(factor, 0.2), where(was_rejected, 1.0, 6.0))
+    step, wish = h * factor * compression(C, y, y_new), E.next_step
+    step = where(was_rejected, step, where(h < wish, max(step, wish), step))
+    return step, max(ln_error, MIN_LN_ERROR)
+
+
+@inline
+def shrunk(h, order, error):
+    """Step to try after one with too great an error."""
+    return h * max(0.2, 0.9 * error ** (-1.0 / order))
+
+
+@inline
+def proposal(E, C, O, t_event, y, dy):
+    """Time at which the next step should end, and the event it is aimed at; -1 for none."""
+    aim, t_aim = -1, t_event
+    if O.adaptive == 1:
+        aim, wait = expected_event(E, C, y, dy)
+        comes = (aim >= 0) & (E.t + wait < t_event)
+        aim, t_aim = where(comes, aim, -1), where(comes, E.t + wait, t_event)
+    end = proposed_end(E, O, t_aim)
+    return end, where(end < t_aim, -1, aim)
+
+
+@inline
+def smallest_step(E):
+    """Step that hardly changes the time [s]."""
+    return 4e-16 * max(E.t, E.length_scale / E.speed_scale)
 
 
 @inline
@@ -92,18 +124,9 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
     is; a length of -1.0 if no step is small enough.
     """
     t = E.t
-    aim, t_aim = -1, t_event
-    if O.adaptive == 1:
-        aim, wait = expected_event(E, C, y, k[0])
-        if aim >= 0 and t + wait < t_event:
-            t_aim = t + wait
-        else:
-            aim = -1
-    end = proposed_end(E, O, t_aim)
-    if end < t_aim:
-        aim = -1
+    end, aim = proposal(E, C, O, t_event, y, k[0])
     h = end - t
-    smallest = 4e-16 * max(t, E.length_scale / E.speed_scale)
+    smallest = smallest_step(E)
     rejected = False
     while h > smallest or (h >= 0.0 and not rejected):
         take_step(P, E, C, O, tableau, t, h, y, k, y_new)
@@ -117,14 +140,12 @@ def good_step(P, E, C, O, tableau, order, t_event, y, k, y_new):
             return h, t + h if rejected else end, -1
         error = error_norm(E, C, h, y, y_new, k, O.tolerance)
         if error <= 1.0:
-            wish = E.next_step
-            control_step(E, C, order, h, error, rejected, y, y_new)
-            if not rejected and h < wish:  # cut short by a known event: keep the wish at least
-                E.next_step = max(E.next_step, wish)
+            step = control_step(E, C, order, h, error, rejected, y, y_new)
+            E.next_step, E.ln_last_error = step
             return h, t + h if rejected else end, -1 if rejected else aim
         E.rejected += 1.0
         rejected = True
-        h *= max(0.2, 0.9 * error ** (-1.0 / order))
+        h = shrunk(h, order, error)
         E.next_step = h
     return -1.0, t, -1
 
@@ -213,31 +234,37 @@ def run_on(run):
 
     Takes an :class:`~saleg.kernel.tuples.Integration` and returns one of the codes of
     :mod:`saleg.kernel.layout`. All state is in the arguments, so a call continues where the one
-    before stopped.
+    before stopped. Whoever takes the steps himself (kernel/lanes) asks for the begin, or for the
+    end of a step, alone.
     """
     P, E, C, y, O = run.laws[0], run.engine[0], run.chambers, run.y, run.options[0]
     peaks, tables, tableau, control = run.peaks, run.tables, run.tableau, run.control
     k, y_new, spare = run.scratch.rates, run.scratch.y_new, run.scratch.spare
     stages = tableau.b.shape[0]
-    spare.trail[N_PEAKS] = 0.0
     last_step = E.steps + O.max_steps
-    refresh(P, E, C, y)
-    rhs(P, E, C, E.t, y, k[0], O.motored)
-    E.evaluations += 1.0
-    if O.history > 0 and tables.filled[0].history == 0:
-        observe_now(P, E, C, O, y, k[0], tables)
-    # What is due at the start.
-    if switch(P, E, C, O, y, -1, peaks, tables, control):
-        begin_anew(P, E, C, O, y, k[0], tables)
-    if peaks[PEAK_PRESSURE] == 0.0:  # nothing of this stroke has been watched yet
-        watch_point(C, y, k[0], peaks)
+    if O.part != END_OF_STEP:
+        spare.trail[N_PEAKS] = 0.0
+        refresh(P, E, C, y)
+        rhs(P, E, C, E.t, y, k[0], O.motored)
+        E.evaluations += 1.0
+        if O.history > 0 and tables.filled[0].history == 0:
+            observe_now(P, E, C, O, y, k[0], tables)
+        # What is due at the start.
+        if switch(P, E, C, O, y, -1, peaks, tables, control):
+            begin_anew(P, E, C, O, y, k[0], tables)
+        if O.peaks > 0 and peaks[PEAK_PRESSURE] == 0.0:  # nothing has been watched of this stroke
+            watch_point(C, y, k[0], peaks)
+    if O.part == BEGIN:
+        return GOES_ON
     while E.t < O.t_end:
         if E.steps >= last_step or not has_room(O, tables):
             return BUFFER_FULL
         if O.adaptive == 1 and E.steps - E.steps_at_dead_centre > MAX_STEPS:
             return TOO_MANY_STEPS
-        t_event = next_time_event(C, O.t_end)
-        full, end, aim = good_step(P, E, C, O, tableau, run.order, t_event, y, k, y_new)
+        full, end, aim = O.length, O.end, O.aim
+        if O.part == WHOLE:
+            t_event = next_time_event(C, O.t_end)
+            full, end, aim = good_step(P, E, C, O, tableau, run.order, t_event, y, k, y_new)
         if full < 0.0:
             return STEP_FAILURE
         if E.direction == 0.0:
@@ -248,12 +275,12 @@ def run_on(run):
         if O.dense > 0:
             observe_within(P, E, C, O, tableau, h, y, k, spare, tables)
         accept(E, O, h, full, end, y, y_new, k, stages)
-        if landed >= 0:
+        if O.peaks > 0 and landed >= 0:
             watch_point(C, y, k[0], peaks)
         if O.history > 0 and (landed >= 0 or E.steps % O.history < 1.0):
             observe_now(P, E, C, O, y, k[0], tables)
         changed = False
-        if landed >= 0 or is_due(E, C, LEFT, y) or is_due(E, C, RIGHT, y):
+        if landed >= 0 or is_due(E, C, LEFT, E.t, y) or is_due(E, C, RIGHT, E.t, y):
             changed = switch(P, E, C, O, y, landed, peaks, tables, control)
         code = reason_to_stop(E, O, landed)
         if landed == DEAD_CENTRE:
@@ -266,6 +293,8 @@ def run_on(run):
             begin_anew(P, E, C, O, y, k[0], tables)
         if code >= 0:
             return code
-        if changed:
+        if O.peaks > 0 and changed:
             watch_point(C, y, k[0], peaks)
+        if O.part == END_OF_STEP:
+            return GOES_ON
     return END_OF_TIME

@@ -75,7 +75,7 @@ CHAMBER_STATES = {
 }
 
 # Length of the vector a state at a dead centre is written as (see kernel/orbit.py).
-VECTOR_PER_SIDE = 16
+VECTOR_PER_SIDE = 19
 N_VECTOR = 8 + 2 * VECTOR_PER_SIDE + 1
 
 # Quantities whose greatest value in a stroke is kept.
@@ -87,6 +87,7 @@ PEAK_ACCELERATION = 7
 N_PEAKS = 8
 
 # Why the integrator came back.
+GOES_ON = -1
 BUFFER_FULL = 0
 END_OF_TIME = 1
 STALLED = 2
@@ -98,6 +99,11 @@ NOT_FOUND = 7
 CONTROLLER_FAULT = 8
 # Steps of the adaptive method in one stroke beyond which an engine is too stiff for it.
 MAX_STEPS = 1_000_000.0
+
+# Parts of an integration: all of it, what comes before the first step, the end of one step.
+WHOLE = 0
+BEGIN = 1
+END_OF_STEP = 2
 
 # Events, in the order they are looked for; from PORT on one per side, even for the left.
 DEAD_CENTRE = 0
@@ -395,11 +401,16 @@ OPTIONS_RECORD = np.dtype(
         ("dense", np.int64),
         ("events", np.int64),
         ("max_steps", np.int64),
+        ("part", np.int64),
+        ("aim", np.int64),
         ("t_end", np.float64),
         ("step", np.float64),
         ("tolerance", np.float64),
         ("stall", np.float64),
         ("last_stroke", np.float64),
         ("longest", np.float64),
+        # Length and end of the one step whose end alone is asked for.
+        ("length", np.float64),
+        ("end", np.float64),
     ]
 )

@@ -1,6 +1,6 @@
 """One row of the history: everything that can be seen at an instant."""
 
-from saleg.kernel.breathing import stands_open
+from saleg.kernel.breathing import has_own_pressure
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
@@ -26,7 +26,7 @@ def motored_pressure(E, C, side, y, motored):
     """Motored pressure [Pa]; the actual one where it is not integrated."""
     c = C[side]
     if c.mode == OPEN:
-        return c.intake_pressure if stands_open(C, side) else gas_of(E, C, side, y, False).p
+        return gas_of(E, C, side, y, False).p if has_own_pressure(C, side) else c.intake_pressure
     return gas_of(E, C, side, y, motored).p_motored
 
 

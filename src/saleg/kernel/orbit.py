@@ -8,6 +8,8 @@ itself, seen in the mirror, after half a cycle.
 
 from math import asinh, exp, inf, isfinite, log, sinh
 
+import numpy as np
+
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import (
     AIR,
@@ -37,6 +39,11 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.run_plainly import run_at
 from saleg.kernel.state import begin_stroke, copy_row, keep_snapshot
+
+# Whether a map is that of half a cycle, seen in the mirror. Numpy's own: for Python's own numba
+# compiles each function once per value.
+HALF_CYCLE = np.bool_(True)
+WHOLE_CYCLE = np.bool_(False)
 
 # What do_orbit is asked for.
 FIND = 0
@@ -77,6 +84,9 @@ Z_WALL = 12
 Z_LN_CRANKCASE = 13
 Z_CRANKCASE_MASS = 14
 Z_CRANKCASE_BURNT = 15
+Z_LN_LIT = 16
+Z_LN_CLOSING_PRESSURE = 17
+Z_LN_CLOSING_TEMPERATURE = 18
 # Unit of a wall's temperature in the vector [K]: a power of two, which rounds nothing.
 WALL_SCALE = 512.0
 Z_LN_MASS_MOVING = Z_CHAMBERS + 2 * VECTOR_PER_SIDE
@@ -116,6 +126,10 @@ def write_vector(E, C, y, z):
         z[first + Z_LN_CRANKCASE] = y[CRANKCASE_THETA + side]
         z[first + Z_CRANKCASE_MASS] = log(crankcase) if crankcase > 0.0 else 0.0
         z[first + Z_CRANKCASE_BURNT] = y[CRANKCASE_BURNT + side] / max(crankcase, 1e-300)
+        z[first + Z_LN_LIT] = log(c.mass_lit) if burning and c.breathes > 0.0 else 0.0
+        trapped = c.mode != OPEN and c.by_flow > 0.0
+        z[first + Z_LN_CLOSING_PRESSURE] = log(c.p_closing) if trapped else 0.0
+        z[first + Z_LN_CLOSING_TEMPERATURE] = log(c.T_closing) if trapped else 0.0
 
 
 @inline
@@ -126,6 +140,11 @@ def read_contents(C, side, y, z, first):
         c.burnt = c.mass - c.fuel - c.air
         y[FUEL + side], y[AIR + side], y[BURNT + side] = c.fuel, c.air, c.burnt
         y[FRESH + side] = z[first + Z_FRESH] * c.mass
+        if c.mode == BURNING:
+            c.mass_lit = exp(z[first + Z_LN_LIT])
+    if c.mode != OPEN and c.by_flow > 0.0:
+        c.p_closing = exp(z[first + Z_LN_CLOSING_PRESSURE])
+        c.T_closing = exp(z[first + Z_LN_CLOSING_TEMPERATURE])
     y[WALL + side] = z[first + Z_WALL] * WALL_SCALE
     c.wall_temperature = y[WALL + side]
     if y[CRANKCASE_MASS + side] > 0.0:
@@ -238,14 +257,25 @@ def next_return(mapping, mirrored):
     Returns why the integrator came back.
     """
     run = mapping.integration
+    begin_return(run, mirrored)
+    return end_return(run, mirrored, run_at(mapping.address, run))
+
+
+@compiled
+def begin_return(run, mirrored):
+    """Ask the integrator for the way to the next return."""
     E, O, filled = run.engine[0], run.options[0], run.tables.filled[0]
-    wanted = E.strokes + strokes_per_map(mirrored)
-    O.last_stroke = wanted
+    O.last_stroke = E.strokes + strokes_per_map(mirrored)
     O.t_end = E.t + O.longest
     filled.strokes = 0
     filled.events = 0
-    code = run_at(mapping.address, run)
-    if code == END_OF_TIME and E.strokes < wanted:
+
+
+@compiled
+def end_return(run, mirrored, code):
+    """What the integrator came back with as a return, seen in the mirror if need be."""
+    E = run.engine[0]
+    if code == END_OF_TIME and E.strokes < run.options[0].last_stroke:
         return NO_DEAD_CENTRE
     if mirrored and code == END_OF_TIME:
         mirror(E, run.chambers, run.y, run.words.chambers)
@@ -357,17 +387,28 @@ def whole_cycle(mapping, iterates, found):
     A state that repeats itself in the mirror must repeat itself without. The state at its begin
     goes into the snapshots; `found.missed` is how far the cycle misses it.
     """
-    run = mapping.integration
-    E, O, C, y = run.engine[0], run.options[0], run.chambers, run.y
+    begin_cycle(mapping.integration, iterates)
+    code = next_return(mapping, WHOLE_CYCLE)
+    end_cycle(mapping.integration, iterates, found)
+    return code
+
+
+@compiled
+def begin_cycle(run, iterates):
+    """Keep the present state as the begin of a whole cycle."""
+    E, C, y = run.engine[0], run.chambers, run.y
     write_vector(E, C, y, iterates.point)
     keep_snapshot(run.words, y, run.snapshots.y)
     begin_stroke(E, C, y, run.peaks)
-    O.peaks = 2
-    code = next_return(mapping, False)
-    O.peaks = 0
-    write_vector(E, C, y, iterates.image)
+    run.options[0].peaks = 2
+
+
+@compiled
+def end_cycle(run, iterates, found):
+    """Compare the present state with that at the begin of the cycle."""
+    run.options[0].peaks = 0
+    write_vector(run.engine[0], run.chambers, run.y, iterates.image)
     found.missed = distance(iterates.image, iterates.point)
-    return code
 
 
 @compiled
@@ -394,42 +435,57 @@ def find_orbit(mapping, max_maps, tolerance, iterates, found):
     cycle; `iterates` the begin of the cycle, the residual of the map before it and the end of the
     cycle. Returns the code of the integrator, or that nothing was found in `max_maps` maps.
     """
-    z, f, image = iterates.point, iterates.residual, iterates.image
-    run = mapping.integration
-    E, C, y = run.engine[0], run.chambers, run.y
-    write_vector(E, C, y, z)
-    same_modes(C, iterates.modes)
-    known = 0
-    for count in range(max_maps):
+    begin_search(mapping.integration, iterates)
+    for _ in range(max_maps):
         code = next_return(mapping, mapping.mirrored)
         if code != END_OF_TIME:
             return code
-        found.maps += 1.0
-        resize(E, run.tables.strokes, int(strokes_per_map(mapping.mirrored)))
-        write_vector(E, C, y, image)
-        alike = same_modes(C, iterates.modes)
-        found.residual = distance(image, z)
-        for n in range(N_VECTOR):
-            f[n] = image[n] - z[n]
-        if not alike:
-            known = 0
-        if alike and found.residual <= tolerance:
-            found.slowness = slowness(iterates, min(known, DEPTH))
-            # A small residual is no small distance.
-            if found.slowness * found.residual <= NEAR * tolerance:
-                return whole_cycle(mapping, iterates, found)
-        trusted = known > 0 and count >= WARM_UP
-        trusted = trusted and extrapolate(iterates, min(known, DEPTH))
-        if alike:
-            push(z, f, iterates.points, iterates.residuals)
-            known += 1
-        if trusted:
-            for n in range(N_VECTOR):
-                z[n] = image[n]
-            read_vector(E, C, y, z)
-        else:
-            write_vector(E, C, y, z)
+        if has_settled(mapping.integration, mapping.mirrored, tolerance, iterates, found):
+            return whole_cycle(mapping, iterates, found)
     return NOT_FOUND
+
+
+@compiled
+def begin_search(run, iterates):
+    """Take the present state as the first point."""
+    write_vector(run.engine[0], run.chambers, run.y, iterates.point)
+    same_modes(run.chambers, iterates.modes)
+    iterates.counts[0] = iterates.counts[1] = 0
+
+
+@compiled
+def has_settled(run, mirrored, tolerance, iterates, found):
+    """Whether the state just returned to is the fixed point; if not, go to a better one."""
+    z, f, image = iterates.point, iterates.residual, iterates.image
+    E, C, y = run.engine[0], run.chambers, run.y
+    count, known = iterates.counts[0], iterates.counts[1]
+    found.maps += 1.0
+    resize(E, run.tables.strokes, int(strokes_per_map(mirrored)))
+    write_vector(E, C, y, image)
+    alike = same_modes(C, iterates.modes)
+    found.residual = distance(image, z)
+    for n in range(N_VECTOR):
+        f[n] = image[n] - z[n]
+    if not alike:
+        known = 0
+    if alike and found.residual <= tolerance:
+        found.slowness = slowness(iterates, min(known, DEPTH))
+        # A small residual is no small distance.
+        if found.slowness * found.residual <= NEAR * tolerance:
+            return True
+    trusted = known > 0 and count >= WARM_UP
+    trusted = trusted and extrapolate(iterates, min(known, DEPTH))
+    if alike:
+        push(z, f, iterates.points, iterates.residuals)
+        known += 1
+    iterates.counts[0], iterates.counts[1] = count + 1, known
+    if trusted:
+        for n in range(N_VECTOR):
+            z[n] = image[n]
+        read_vector(E, C, y, z)
+    else:
+        write_vector(E, C, y, z)
+    return False
 
 
 @compiled

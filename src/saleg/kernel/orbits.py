@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import END_OF_TIME, N_ALL, N_VECTOR
 from saleg.kernel.orbit import (
+    HALF_CYCLE,
     NEAR,
     cycle_from,
     distance,
@@ -119,7 +120,7 @@ def begin_on_the_left(mapping, iterates, found):
     write_vector(E, C, y, iterates.point)
     read_vector(E, C, y, iterates.point)
     begin_stroke(E, C, y, run.peaks)
-    next_return(mapping, True)
+    next_return(mapping, HALF_CYCLE)
     mirror(E, C, y, run.words.chambers)
     write_vector(E, C, y, iterates.point)
     cycle_from(mapping, iterates, found)

@@ -7,7 +7,7 @@ cubic between there and the nearer end.
 
 from math import sqrt
 
-from saleg.kernel.breathing import breathes, dilution, stands_open
+from saleg.kernel.breathing import breathes, dilution, has_own_pressure
 from saleg.kernel.events import cubic, pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
@@ -28,6 +28,7 @@ from saleg.kernel.needs import N_WANTED
 from saleg.kernel.rhs import rhs
 from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
+from saleg.laws.choice import any_of, where
 
 # Share of the greatest value so far below which both ends of a step promise no greater one within.
 PROMISING = 0.7
@@ -39,9 +40,8 @@ CLEARLY = 0.3
 def pressure_rate(C, side, y, dy):
     """Relative rate of the pressure [1/s]."""
     c = C[side]
-    if stands_open(C, side):
-        return 0.0
-    return dy[THETA + side] - G0 * c.sign * y[V] / clearance_of(C, side, y[X])
+    rate = dy[THETA + side] - G0 * c.sign * y[V] / clearance_of(C, side, y[X])
+    return where(has_own_pressure(C, side), rate, 0.0)
 
 
 @inline
@@ -62,16 +62,15 @@ def watched(C, peak, y, dy):
 def known_rate(C, peak, y, dy):
     """Time derivative of a watched quantity the state gives; relative for all but velocity."""
     if peak == PEAK_VELOCITY:
-        return dy[V] if y[V] > 0.0 else -dy[V]
+        return where(y[V] > 0.0, dy[V], -dy[V])
     side = peak % 2
-    if stands_open(C, side):
-        return 0.0
     rate = pressure_rate(C, side, y, dy)
     if peak < PEAK_TEMPERATURE:
         return rate
     if breathes(C, side):
         rate -= dilution(C, side, y, dy)
-    return rate + C[side].sign * y[V] / clearance_of(C, side, y[X])
+    rate += C[side].sign * y[V] / clearance_of(C, side, y[X])
+    return where(has_own_pressure(C, side), rate, 0.0)
 
 
 @compiled
@@ -124,17 +123,15 @@ def rises(C, peak, y, dy):
     c = C[side]
     share = G0 if peak < PEAK_TEMPERATURE else G0 - 1.0
     closer = dy[THETA + side] * clearance_of(C, side, y[X]) - share * c.sign * y[V]
-    if stands_open(C, side):
-        return False
     if peak >= PEAK_TEMPERATURE and breathes(C, side):
         closer -= dilution(C, side, y, dy) * clearance_of(C, side, y[X])
-    return closer > 0.0
+    return has_own_pressure(C, side) & (closer > 0.0)
 
 
 @inline
 def is_passed(C, peak, y, dy, y_new, dy_new):
     """Whether a quantity with a known rate rises at the begin of a step and falls at its end."""
-    return rises(C, peak, y, dy) and not rises(C, peak, y_new, dy_new)
+    return where(rises(C, peak, y_new, dy_new), False, rises(C, peak, y, dy))
 
 
 @inline
@@ -150,8 +147,11 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
         return
     for peak in range(N_PEAKS):
         if is_costly(peak):
-            if O.peaks > 1 and may_peak(C, peak, h, y, k[0], y_new, k[last], peaks, spare.trail):
-                approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
+            if O.peaks > 1:
+                expected = may_peak(C, peak, h, y, k[0], y_new, k[last], peaks, spare.trail)
+                spare.trail[peak] = watched(C, peak, y, k[0])
+                if expected:
+                    approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
         elif is_passed(C, peak, y, k[0], y_new, k[last]):
             if O.peaks > 1:
                 approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
@@ -174,15 +174,14 @@ def may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, trail):
     """
     before, h_before = trail[peak], trail[N_PEAKS]
     q0, q1 = watched(C, peak, y, dy), watched(C, peak, y_new, dy_new)
-    trail[peak] = q0
-    if max(q0, q1) <= PROMISING * peaks[peak]:
-        return False
-    if h_before <= 0.0:
-        return True
-    slope, slope_before = (q1 - q0) / h, (q0 - before) / h_before
-    at_begin = (slope_before * h + slope * h_before) / (h + h_before)
-    at_end = slope + (slope - at_begin)
-    return at_begin > -CLEARLY * abs(slope) and at_end < CLEARLY * abs(slope)
+    expected = max(q0, q1) > PROMISING * peaks[peak]
+    if any_of(expected & (h_before > 0.0)):
+        slope, slope_before = (q1 - q0) / h, (q0 - before) / h_before
+        at_begin = (slope_before * h + slope * h_before) / (h + h_before)
+        at_end = slope + (slope - at_begin)
+        turns = (at_begin > -CLEARLY * abs(slope)) & (at_end < CLEARLY * abs(slope))
+        expected = expected & ((h_before <= 0.0) | turns)
+    return expected
 
 
 @compiled

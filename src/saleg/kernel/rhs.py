@@ -11,11 +11,11 @@ from saleg.kernel.breathing import (
     Flows,
     breathes,
     by_flow,
+    chamber_flows,
     crankcase_force,
-    flows_of,
+    has_own_pressure,
     mass_of,
     no_flows,
-    stands_open,
     wall_of,
     write_contents,
 )
@@ -56,6 +56,7 @@ from saleg.kernel.needs import (
     CRANKCASE_IS_WANTED,
     CURRENT_IS_WANTED,
     MOTORED_PRESSURE_IS_WANTED,
+    MOTORING_IS_POSSIBLE,
     WALL_TEMPERATURE_IS_WANTED,
 )
 from saleg.kernel.slots import (
@@ -79,6 +80,7 @@ from saleg.kernel.slots import (
 )
 from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Charge, Gas, Motion
+from saleg.laws.choice import any_of, where
 
 # How near a breakpoint counts as reached, over the half stroke or the duration of the combustion,
 # and how far beside it is beyond it.
@@ -131,7 +133,7 @@ def gas_at(E, C, side, y, x, v, p, p_motored):
         bore=c.bore,
         mean_piston_speed=E.mean_piston_speed,
         wall_temperature=wall_of(C, side, y),
-        burning=1.0 if c.mode == BURNING else 0.0,
+        burning=where(c.mode == BURNING, 1.0, 0.0),
         clearance_rate=c.sign * v,
         p_rate=0.0,
     )
@@ -186,13 +188,15 @@ def heat_loss(P, C, side, gas, charge, logarithms):
 def heat_release(P, C, side, t, y):
     """Heat released by combustion [W], Eq. 53; what leaks meanwhile takes its share along."""
     c = C[side]
-    if c.mode != BURNING:
-        return 0.0
-    u = min(max((t - c.t_ignition) / c.duration, c.first_phase), c.last_phase)
-    energy = c.fuel_to_burn * c.lower_heating_value
-    if breathes(C, side):
-        energy *= mass_of(C, side, y) / c.mass_lit
-    return energy / c.duration * heat_release_burn_rate(P, side, u)
+    released, burning = 0.0, c.mode == BURNING
+    if any_of(burning):
+        u = min(max((t - c.t_ignition) / c.duration, c.first_phase), c.last_phase)
+        energy = c.fuel_to_burn * c.lower_heating_value
+        if breathes(C, side):
+            energy *= mass_of(C, side, y) / c.mass_lit
+        flow = energy / c.duration * heat_release_burn_rate(P, side, u)
+        released = where(burning, flow, 0.0)
+    return released
 
 
 @inline
@@ -232,44 +236,50 @@ class ChamberRates(NamedTuple):
 def chamber_rates(P, E, C, side, t, y, motored):
     """Pressure, rates and heat flows of one chamber."""
     c = C[side]
-    if stands_open(C, side):
-        return ChamberRates(c.intake_pressure, 0.0, 0.0, 0.0, 0.0, 0.0, no_flows())
-    clearance_rate = c.sign * y[V]
-    ln_clearance = ln_clearance_of(C, side, y[X])
-    ln_p = y[THETA + side] - G0 * ln_clearance
-    p = p_motored = exp(ln_p)
-    if MOTORED_PRESSURE_IS_WANTED and motored and c.mode != OPEN:
-        p_motored = exp(y[MOTORED + side] - G0 * ln_clearance)
-    gas = gas_at(E, C, side, y, y[X], y[V], p, p_motored)
-    charge = charge_of(E, C, side, y)
-    released = heat_release(P, C, side, t, y)
-    heat_constants = (c.heat_first, c.heat_second, c.heat_third)
-    if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:  # charge and wall change all the time
-        heat_constants = heat_transfer_coefficient_constants(P, side, gas, charge)
-    ln_mass_gas = ln_mass_gas_of(C, side, y)
-    logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, heat_constants)
-    lost = heat_loss(P, C, side, gas, charge, logarithms)
-    rate = theta_rate(P, side, gas, clearance_rate, released - lost)
-    flows = flows_of(P, C, side, y, gas)
-    if breathes(C, side):
-        rate += flows.ln_p
-    ignition = 0.0
-    if c.armed > DISARMED and c.mode == CLOSED:
-        relative_rate = rate - G0 * clearance_rate / gas.clearance
-        rising = with_pressure_rate(gas, gas.p * relative_rate)
-        constants = (c.ignition_first, c.ignition_second, c.ignition_third)
-        if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:
-            constants = ignition_rate_constants(P, side, gas, charge)
-        logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, constants)
-        ignition = ignition_rate(P, side, rising, charge, logarithms)
-    motored_rate = 0.0
-    if MOTORED_PRESSURE_IS_WANTED and motored and c.mode != OPEN:
-        ln_p_motored = y[MOTORED + side] - G0 * ln_clearance
-        cold = motored_gas(gas, gas.p_motored * gas.V * per_mass_gas_of(C, side, y))
-        logarithms = logarithms_of(C, side, ln_clearance, ln_p_motored, ln_mass_gas, heat_constants)
-        cooled = heat_loss(P, C, side, cold, charge, logarithms)
-        motored_rate = theta_rate(P, side, cold, clearance_rate, -cooled)
-    return ChamberRates(gas.p, rate, ignition, motored_rate, released, lost, flows)
+    p, own = c.intake_pressure, has_own_pressure(C, side)
+    rate, ignition, motored_rate, released, lost = 0.0, 0.0, 0.0, 0.0, 0.0
+    flows = no_flows()
+    if any_of(own):
+        clearance_rate = c.sign * y[V]
+        ln_clearance = ln_clearance_of(C, side, y[X])
+        ln_p = y[THETA + side] - G0 * ln_clearance
+        p_own = p_motored = exp(ln_p)
+        if MOTORED_PRESSURE_IS_WANTED and motored:
+            ln_p_motored = y[MOTORED + side] - G0 * ln_clearance
+            p_motored = where(c.mode == OPEN, p_own, exp(ln_p_motored))
+        gas = gas_at(E, C, side, y, y[X], y[V], p_own, p_motored)
+        charge = charge_of(E, C, side, y)
+        heat_released = heat_release(P, C, side, t, y)
+        heat_constants = (c.heat_first, c.heat_second, c.heat_third)
+        if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:  # charge and wall change all the time
+            heat_constants = heat_transfer_coefficient_constants(P, side, gas, charge)
+        ln_mass_gas = ln_mass_gas_of(C, side, y)
+        logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, heat_constants)
+        heat_lost = heat_loss(P, C, side, gas, charge, logarithms)
+        rate_own = theta_rate(P, side, gas, clearance_rate, heat_released - heat_lost)
+        if CONTENTS_ARE_WANTED and breathes(C, side):
+            flows = chamber_flows(P, C, side, y, gas)
+            rate_own += flows.ln_p
+        lights = (c.armed > DISARMED) & (c.mode == CLOSED)
+        if any_of(lights):
+            relative_rate = rate_own - G0 * clearance_rate / gas.clearance
+            rising = with_pressure_rate(gas, gas.p * relative_rate)
+            constants = (c.ignition_first, c.ignition_second, c.ignition_third)
+            if CONTENTS_ARE_WANTED or WALL_TEMPERATURE_IS_WANTED:
+                constants = ignition_rate_constants(P, side, gas, charge)
+            logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, constants)
+            ignition = where(lights, ignition_rate(P, side, rising, charge, logarithms), 0.0)
+        if MOTORED_PRESSURE_IS_WANTED and motored:
+            cold = motored_gas(gas, gas.p_motored * gas.V * per_mass_gas_of(C, side, y))
+            logarithms = logarithms_of(
+                C, side, ln_clearance, ln_p_motored, ln_mass_gas, heat_constants
+            )
+            cooled = heat_loss(P, C, side, cold, charge, logarithms)
+            cold_rate = theta_rate(P, side, cold, clearance_rate, -cooled)
+            motored_rate = where(c.mode == OPEN, 0.0, cold_rate)
+        p, rate = where(own, p_own, p), where(own, rate_own, 0.0)
+        released, lost = where(own, heat_released, 0.0), where(own, heat_lost, 0.0)
+    return ChamberRates(p, rate, ignition, motored_rate, released, lost, flows)
 
 
 @inline
@@ -284,7 +294,7 @@ def write_chamber(C, side, v, rates, dy):
     dy[N_STATE + HEAT_RELEASED + side] = rates.released
     dy[N_STATE + HEAT_LOST + side] = rates.lost
     dy[N_STATE + GAS_WORK + side] = power
-    dy[N_STATE + PORT_WORK + side] = power if stands_open(C, side) else 0.0
+    dy[N_STATE + PORT_WORK + side] = where(has_own_pressure(C, side), 0.0, power)
 
 
 @inline
@@ -303,7 +313,7 @@ def motor_angle(E, t):
 @inline
 def alternator_action(P, E, t, motion):
     """Force of the alternator against positive velocity [N] and the power it delivers [W]."""
-    if E.motoring > 0.0:
+    if MOTORING_IS_POSSIBLE and E.motoring > 0.0:
         force = -E.motor_amplitude * sin(motor_angle(E, t))
         return force, actuators_motor_power(P, force * motion.v)
     force = alternator_force(P, E.load_weight, motion)
@@ -406,7 +416,7 @@ def refresh(P, E, C, y):
     for side in range(2):
         c = C[side]
         c.per_half_stroke = 1.0 / c.half_stroke
-        if stands_open(C, side):
+        if not has_own_pressure(C, side):
             continue
         c.ln_volume = log(c.area * c.half_stroke)
         c.ln_mass_gas = log(c.mass * c.gas_constant)

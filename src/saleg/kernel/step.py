@@ -27,6 +27,7 @@ from saleg.kernel.needs import (
     MOTORED_PRESSURE_IS_WANTED,
     WALL_TEMPERATURE_IS_WANTED,
 )
+from saleg.laws.choice import where
 
 # Share of fuel in a charge below which its error counts as if there were so much.
 FUEL_SHARE = 0.02
@@ -87,4 +88,4 @@ def error_norm(E, C, h, y, y_new, k, tolerance):
         for n in range(CRANKCASE_MASS, SUPPLIED):
             error = abs(defect(k, n)) / max(y[CRANKCASE_MASS + (n - FUEL) % 2], 1e-300)
             worst, total = max(worst, error), total + error
-    return h * worst / tolerance if isfinite(total) else inf
+    return where(isfinite(total), h * worst / tolerance, inf)

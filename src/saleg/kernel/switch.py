@@ -6,8 +6,8 @@ from saleg.kernel.breathing import (
     breathes,
     by_flow,
     crankcase_of,
+    has_own_pressure,
     mass_of,
-    stands_open,
     take_contents,
 )
 from saleg.kernel.control import ask, obey
@@ -89,6 +89,7 @@ from saleg.kernel.slots import (
 )
 from saleg.kernel.state import begin_stroke, clearance_of
 from saleg.laws.arguments import Motion, Stroke
+from saleg.laws.choice import where
 
 # Longest first step of a combustion, over its duration.
 FIRST_OF_BURN = 0.1
@@ -136,7 +137,7 @@ def internal_energy(P, C, side, y):
     """Internal energy of the charge [J]; while the ports are open that of the fresh one."""
     c = C[side]
     T = c.T_closing
-    if not stands_open(C, side):
+    if has_own_pressure(C, side):
         _, T = pressure_and_temperature(C, side, y)
     energy = mass_of(C, side, y) * gas_properties_internal_energy(P, side, T)
     if CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0:
@@ -388,6 +389,8 @@ def regulate(P, E, C, y):
         piston_area=0.5 * (C[LEFT].area + C[RIGHT].area),
         fuel_energy=fuel + E.last_fuel_energy,
         speed_squared=squared + E.last_speed_squared,
+        x_left=min(y[X], E.x_dead_centre),
+        x_right=max(y[X], E.x_dead_centre),
     )
     E.last_fuel_energy = fuel
     E.last_speed_squared = squared
@@ -405,8 +408,8 @@ def regulate(P, E, C, y):
 def misfires(E, C, side):
     """Whether a chamber that begins to expand holds a charge that should have lit."""
     c = C[side]
-    due = c.armed == ARMED or c.armed == FAILING
-    return due and c.mode == CLOSED and c.sign * E.direction > 0.0
+    due = (c.armed == ARMED) | (c.armed == FAILING)
+    return due & (c.mode == CLOSED) & (c.sign * E.direction > 0.0)
 
 
 @inline
@@ -416,20 +419,18 @@ def ports_due(E, C, side, y):
     beyond = clearance_of(C, side, y[X]) - c.port
     slack = 1e-14 * E.length_scale
     outward = c.sign * E.direction
-    if c.mode == OPEN:
-        return outward < 0.0 and beyond <= slack
-    return outward > 0.0 and beyond >= -slack
+    opens, closes = (outward > 0.0) & (beyond >= -slack), (outward < 0.0) & (beyond <= slack)
+    return where(c.mode == OPEN, closes, opens)
 
 
 @inline
-def is_due(E, C, side, y):
+def is_due(E, C, side, t, y):
     """Whether any change of a chamber is due, or a breakpoint of its burn rate is reached."""
     c = C[side]
-    if c.mode == BURNING and E.t >= c.t_breakpoint:
-        return True
-    if c.renewal_due > 0.0 or misfires(E, C, side) or ports_due(E, C, side, y):
-        return True
-    return c.mode == CLOSED and c.armed > DISARMED and y[IGNITION + side] >= 1.0
+    breaks = (c.mode == BURNING) & (t >= c.t_breakpoint)
+    changes = (c.renewal_due > 0.0) | misfires(E, C, side) | ports_due(E, C, side, y)
+    lights = (c.mode == CLOSED) & (c.armed > DISARMED) & (y[IGNITION + side] >= 1.0)
+    return breaks | changes | lights
 
 
 @compiled

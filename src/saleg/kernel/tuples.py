@@ -207,6 +207,8 @@ class Iterates(NamedTuple):
         Equations for the weights of an extrapolation.
     modes : ndarray of int, shape (2,)
         Modes of the chambers at the present point.
+    counts : ndarray of int, shape (2,)
+        Maps taken, and points before the present one in the same modes.
     """
 
     point: Any
@@ -216,3 +218,4 @@ class Iterates(NamedTuple):
     residuals: Any
     gram: Any
     modes: Any
+    counts: Any

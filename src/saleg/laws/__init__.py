@@ -27,6 +27,7 @@ from saleg.laws.base import (
     Validity,
     Wall,
 )
+from saleg.laws.choice import any_of, where
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     ActuatorLaw,
@@ -38,7 +39,7 @@ from saleg.laws.control.base import (
 )
 from saleg.laws.control.fuel import FuelCut, FuelOnDemand, NoFuel, RatedFuel
 from saleg.laws.control.intake import HeatedIntake, RatedIntake
-from saleg.laws.control.load import PowerDemand, ScaledLoad, StrokeRegulator
+from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad, StrokeRegulator
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.earlier_names import accept_earlier_names
@@ -108,6 +109,7 @@ __all__ = [
     "CosineForce",
     "CoulombViscousFriction",
     "Crankcase",
+    "DeadCentreRegulator",
     "DoubleWiebe",
     "Drive",
     "EndStops",
@@ -181,4 +183,6 @@ __all__ = [
     "Wall",
     "Wiebe",
     "Woschni",
+    "any_of",
+    "where",
 ]

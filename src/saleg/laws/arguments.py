@@ -3,6 +3,7 @@
 The kernel fills them from its own variables; a law never sees how the kernel integrates.
 """
 
+import math
 from typing import NamedTuple
 
 
@@ -109,6 +110,8 @@ class Stroke(NamedTuple):
         Lower heating value of the fresh fuel of the last two strokes [J].
     speed_squared : float
         Time integral of the velocity squared over the last two strokes [m^2/s].
+    x_left, x_right : float
+        Positions of its two ends [m]; negative on the left of the midpoint.
     """
 
     length: float
@@ -118,6 +121,8 @@ class Stroke(NamedTuple):
     piston_area: float
     fuel_energy: float
     speed_squared: float
+    x_left: float = math.nan
+    x_right: float = math.nan
 
 
 class Signals(NamedTuple):
@@ -153,6 +158,10 @@ class Signals(NamedTuple):
         Equivalence ratio the engine is built with, the mean of the cylinders with fuel [-].
     rated_intake_temperature : float
         Intake temperature the engine is built with, the mean of theirs [K].
+    x_left, x_right : float
+        Positions of the last two dead centres [m]; negative on the left of the midpoint.
+    compression_ratio_left, compression_ratio_right : float
+        Geometric compression ratio between them of each chamber alone, by its own clearance [-].
     """
 
     t: float
@@ -168,6 +177,10 @@ class Signals(NamedTuple):
     maximum_stroke: float
     rated_equivalence_ratio: float
     rated_intake_temperature: float
+    x_left: float = math.nan
+    x_right: float = math.nan
+    compression_ratio_left: float = math.nan
+    compression_ratio_right: float = math.nan
 
 
 class Drive(NamedTuple):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from saleg.laws.base import GasProperties, Validity
+from saleg.laws.choice import where
 from saleg.laws.usual import GAS_CONSTANT
 from saleg.quantities import quantity, series
 
@@ -148,7 +149,8 @@ class MixtureGas(GasProperties):
 
     def gamma(self, T: float) -> float:
         """Ratio of specific heats [-]."""
-        cp = polynomial(self.low, T) if T < POLYNOMIALS_CHANGE else polynomial(self.high, T)
+        low, high = polynomial(self.low, T), polynomial(self.high, T)
+        cp = where(T < POLYNOMIALS_CHANGE, low, high)
         return cp / (cp - 1.0)
 
     def breakpoint(self) -> float:

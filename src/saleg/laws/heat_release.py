@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import HeatRelease
+from saleg.laws.choice import any_of, where
 from saleg.laws.interpolation import interval, monotone, monotone_slope
 from saleg.quantities import quantity, series
 
@@ -78,7 +79,9 @@ class Wiebe(BurnDuration):
 
 def wiebe_rate(u: float, a: float, b: float) -> float:
     """Derivative of :func:`wiebe_fraction` [-]."""
-    power = u * u if b == 2.0 else u**b  # the usual exponent, at a fifth of the cost
+    power = u * u  # of the usual exponent, at a fifth of the cost
+    if any_of(b != 2.0):
+        power = where(b == 2.0, power, u**b)
     return a * (b + 1.0) * power * math.exp(-a * power * u)
 
 
@@ -121,16 +124,15 @@ class DoubleWiebe(BurnDuration):
 
     def burn_rate(self, u: float) -> float:
         """Rate of the burnt fraction [-], Eq. 58 normalised."""
-        rate = 0.0
-        if u < self.premixed_end:
+        rate, early, late = 0.0, u < self.premixed_end, u > self.diffusion_start
+        if any_of(early):
             premixed = wiebe_rate(u / self.premixed_end, self.a, self.premixed_shape)
-            rate += self.premixed_share * premixed / self.premixed_end
-        if u > self.diffusion_start:
+            rate = where(early, self.premixed_share * premixed / self.premixed_end, 0.0)
+        if any_of(late):
             length = 1.0 - self.diffusion_start
-            diffusive = wiebe_rate(
-                (u - self.diffusion_start) / length, self.a, self.diffusion_shape
-            )
-            rate += (1.0 - self.premixed_share) * diffusive / length
+            since = max(u - self.diffusion_start, 0.0)
+            diffusive = wiebe_rate(since / length, self.a, self.diffusion_shape)
+            rate += where(late, (1.0 - self.premixed_share) * diffusive / length, 0.0)
         return rate / wiebe_fraction(1.0, self.a, 0.0)
 
     def burnt_fraction(self, u: float) -> float:

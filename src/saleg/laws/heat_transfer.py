@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import HeatTransfer
+from saleg.laws.choice import where
 from saleg.quantities import quantity
 
 #: Stefan-Boltzmann constant [W/m^2/K^4].
@@ -189,7 +190,7 @@ class PolytropicLoss(HeatTransfer):
 
     def coefficient(self, gas: Gas, charge: Charge) -> float:
         """Heat flow over area and temperature difference [W/m^2/K]; negative if against it."""
-        exponent = self.compression if gas.clearance_rate < 0.0 else self.expansion
+        exponent = where(gas.clearance_rate < 0.0, self.compression, self.expansion)
         work = gas.p * gas.V / gas.clearance * gas.clearance_rate
         area = 2.0 * gas.V / gas.clearance + math.pi * gas.bore * gas.clearance
         flow = (exponent - self.gamma) / (self.gamma - 1.0) * work

@@ -211,10 +211,11 @@ class IgnitionAtDeadCentre(Ignition):
 
 @dataclass(frozen=True)
 class TabulatedDelay(Ignition):
-    """Ignition delay from a table over pressure, temperature and equivalence ratio.
+    """Ignition delay from a table over pressure, temperature, equivalence ratio and burnt gas.
 
-    The logarithm of the delay is interpolated linearly in that of the pressure, in 1/T and in the
-    equivalence ratio; beyond the table the value at its border holds.
+    The logarithm of the delay is interpolated linearly in that of the pressure, in 1/T, in the
+    equivalence ratio and in the share of burnt gas; beyond the table the value at its border holds.
+    :func:`saleg.fuels.ignition_delays` has tables from chemistry.
 
     Parameters
     ----------
@@ -225,7 +226,9 @@ class TabulatedDelay(Ignition):
     equivalence_ratios : tuple of float
         Equivalence ratios, rising [-].
     delays : tuple of float
-        Delays [s], equivalence ratio running fastest, then temperature, then pressure.
+        Delays [s], equivalence ratio running fastest, then temperature, pressure, burnt share.
+    burnt_shares : tuple of float
+        Shares of burnt gas in the charge by mass, rising [-].
     """
 
     pressures: tuple[float, ...] = series(
@@ -237,25 +240,30 @@ class TabulatedDelay(Ignition):
         "s",
         default=(0.1, 1e-4, 0.01, 1e-5),
         low=1e-30,
-        length="pressures*temperatures*equivalence_ratios",
+        length="burnt_shares*pressures*temperatures*equivalence_ratios",
     )
+    burnt_shares: tuple[float, ...] = series("-", default=(0.0,), low=0, high=1, rising=True)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: one over the delay."""
+        burnt = charge.burnt / charge.mass
+        h = interval(burnt, self.burnt_shares)
         i = interval(gas.p, self.pressures)
         j = interval(gas.T, self.temperatures)
         k = interval(charge.equivalence_ratio, self.equivalence_ratios)
+        t = share(burnt, self.burnt_shares, h)
         u = share_of_logarithm(gas.p, self.pressures, i)
         v = share_of_inverse(gas.T, self.temperatures, j)
         w = share(charge.equivalence_ratio, self.equivalence_ratios, k)
         rows, columns = len(self.temperatures), len(self.equivalence_ratios)
         ln_delay = 0.0
-        for corner in range(8):
-            a, b, c = corner // 4, corner // 2 % 2, corner % 2
-            weight = (u if a else 1.0 - u) * (v if b else 1.0 - v) * (w if c else 1.0 - w)
+        for corner in range(16):
+            a, b, c, d = corner // 8, corner // 4 % 2, corner // 2 % 2, corner % 2
+            weight = (t if a else 1.0 - t) * (u if b else 1.0 - u)
+            weight *= (v if c else 1.0 - v) * (w if d else 1.0 - w)
             if weight > 0.0:
-                entry = ((i + a) * rows + j + b) * columns + k + c
-                ln_delay += weight * math.log(self.delays[entry])
+                entry = ((h + a) * len(self.pressures) + i + b) * rows + j + c
+                ln_delay += weight * math.log(self.delays[entry * columns + k + d])
         return math.exp(-ln_delay)
 
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saleg.plotting.docstrings import documented
-from saleg.plotting.labels import label, values
+from saleg.plotting.labels import axis_label, label, values
 from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new, finish
+from saleg.simulation.readable import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +33,8 @@ def bifurcation(branch: Branch, figure: str = "stroke", ax: Axes | None = None) 
     """
     ax = axes_or_new(ax)
     table = branch.table
-    x, y = table[branch.path].to_numpy(), values(table, figure)
+    along = readable(branch.path, branch.unit)
+    x, y = along.of(table[branch.path].to_numpy()), values(table, figure)
     stable = table["stable"].to_numpy()
     for begin, end in _pieces(stable):
         steady = bool(stable[min(begin + 1, len(stable) - 1)])
@@ -46,9 +48,10 @@ def bifurcation(branch: Branch, figure: str = "stroke", ax: Axes | None = None) 
     if not stable.all():
         ax.plot([], [], color=UNSTABLE_COLOUR, linestyle="--", label="unstable")
     for value, kind in branch.stability_changes:
-        at = _at(branch, value, x, y)
-        ax.plot([value], [at], "o", color="black", label=f"{kind} at {value:.4g}")
-    ax.set_xlabel(f"{branch.path} [{branch.unit}]")
+        shown = along.of(value)
+        at = _at(branch, shown, x, y)
+        ax.plot([shown], [at], "o", color="black", label=f"{kind} at {shown:.4g}")
+    ax.set_xlabel(axis_label(along))
     ax.set_ylabel(label(table, figure))
     return finish(ax, f"{branch.engine.name}: steady states", "best")
 

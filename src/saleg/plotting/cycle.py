@@ -11,7 +11,7 @@ import numpy as np
 from saleg.errors import SalegError
 from saleg.plotting.docstrings import documented
 from saleg.plotting.labels import axis_label
-from saleg.plotting.overlay import ALONE, Place, placed
+from saleg.plotting.overlay import ALONE, Place, placed, sign
 from saleg.plotting.style import (
     APART,
     COINCIDING,
@@ -153,6 +153,7 @@ def finish_cycle(
     if not place.alone:
         legend = "below"
         columns = min(place.columns, place.number + 1 if column_per_run else place.columns)
+    sign(ax, cycle.run)
     return finish(ax, title_of(ax, cycle.run, title, place), legend, columns)
 
 

@@ -12,8 +12,9 @@ from saleg.design import formulas
 from saleg.design.geometry import Geometry
 from saleg.plotting.docstrings import documented
 from saleg.plotting.labels import axis_label
-from saleg.plotting.machine import WALL, housing, mover, piston, springs
+from saleg.plotting.machine import BEARING, WALL, housing, mover, piston, springs
 from saleg.plotting.style import (
+    COLOURS,
     LEFT_COLOUR,
     RIGHT_COLOUR,
     TRANSLATOR_COLOUR,
@@ -50,18 +51,19 @@ def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> ShownAxes:
     mm = {name: 1e3 * value for name, value in geometry.to_dict().items()}
     depth = 0.5 * np.fmax(mm["mover_outer_diameter"], mm["bore"]) + 3.0 * WALL
     step = 0.035 * mm["head"] + 6.0
-    bottom, top, end = -depth - 6.0 * step, depth + 2.0 * WALL, mm["head"] + 8.0 * WALL
+    bottom, top, end = -depth - 6.0 * step, depth + 2.2 * step, mm["head"] + 8.0 * WALL
     scale = min(WIDEST / (2.0 * end), HIGHEST / (top - bottom))
     width, height = max(2.0 * end * scale, NARROWEST), (top - bottom) * scale
     ax = axes_or_new(ax, width=width + 0.4, height=height + 1.0)
-    for side in (-1.0, 1.0):
+    for side, colour in zip((-1.0, 1.0), COLOURS.values(), strict=True):
         housing(ax, mm, side)
         springs(ax, mm, side)
-        piston(ax, mm, side)
+        piston(ax, mm, side, colour=colour)
     if math.isfinite(mm["mover_outer_diameter"]):
         mover(ax, mm)
     _lengths(ax, mm, depth, step)
     _diameters(ax, mm, bottom)
+    _parts(ax, mm, depth, step)
     ax.axhline(0.0, color="0.6", linewidth=0.6, linestyle=(0, (12, 3, 2, 3)), zorder=5)
     ax.set_aspect("equal")
     ax.set_xlim(-end, end)
@@ -72,6 +74,28 @@ def engine_drawing(geometry: Geometry, ax: Axes | None = None) -> ShownAxes:
     ax.grid(visible=False)
     ax.spines["left"].set_visible(False)
     return ax
+
+
+def _parts(ax: Axes, mm: dict[str, float], depth: float, step: float) -> None:
+    """Names of parts in a row above the drawing, each with a line to its part."""
+    radius, spring = 0.5 * mm["bore"], 0.5 * (mm["mover_end"] + mm["bearing"])
+    rod = 0.5 * (mm["bearing"] + mm["crown"])
+    points = {
+        "head": (-mm["head"] - 0.5 * WALL, radius),
+        "piston": (-mm["crown"] + 500.0 * formulas.SKIRT_LENGTH, 0.5 * radius),
+        "ports": (-mm["port"] + 0.5 * WALL, radius + 0.5 * WALL),
+        "mover": (0.0, 0.25 * (mm["mover_outer_diameter"] + mm["mover_inner_diameter"])),
+        "spring": (spring, 0.5 * radius),
+        "bearing": (mm["bearing"] + 0.5 * BEARING, 0.5 * radius),
+        "rod": (rod, 0.0),
+    }
+    known = {name: at for name, at in points.items() if all(map(math.isfinite, at))}
+    names = sorted(known, key=lambda name: known[name][0])
+    for place, name in enumerate(names):
+        x = mm["head"] * ((2.0 * place + 1.0) / len(names) - 1.0)
+        arrow = {"arrowstyle": "-", "linewidth": 0.6, "shrinkB": 0.0, "shrinkA": 1.0}
+        look: dict[str, Any] = {"ha": "center", "va": "bottom", "fontsize": "small"}
+        ax.annotate(name, known[name], (x, depth + 0.7 * step), arrowprops=arrow, zorder=6, **look)
 
 
 def _lengths(ax: Axes, mm: dict[str, float], depth: float, step: float) -> None:

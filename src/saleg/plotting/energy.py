@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from saleg.plotting.cycle import NoCycle, titled
 from saleg.plotting.docstrings import documented
+from saleg.plotting.overlay import sign
 from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from saleg.plotting.figure import ShownAxes
     from saleg.simulation.performance import EnergyBalance
     from saleg.simulation.run import Run
+    from saleg.steady.solver import SteadyState
 
 #: Share of the fuel energy below which a flow is not drawn.
 VISIBLE = 1e-3
@@ -59,8 +61,8 @@ def energy_flows(balance: EnergyBalance) -> dict[str, float]:
     }
 
 
-def balance_of(run: Run) -> EnergyBalance:
-    """The energy balance of a run's last full cycle, with fuel in it.
+def balance_of(run: Run | SteadyState) -> EnergyBalance:
+    """The energy balance of the last full cycle, with fuel in it.
 
     Raises
     ------
@@ -132,4 +134,5 @@ def energy_pie(run: Run, ax: Axes | None = None, *, label: str | None = None) ->
     ax.set_anchor("E")  # beside the legend, which the layout makes room for, however wide the axes
     title = named(f"Fuel energy of a cycle: {joules(balance.fuel)}", label)
     ax.set_title(titled(run, title), fontsize="medium")
+    sign(ax, run)
     return ax

@@ -13,6 +13,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+#: Runs that are named below a figure.
+SIGNED = 2
+
 
 class ShownFigure(Figure):
     """A figure that shows as the result of a notebook's cell, without pyplot."""
@@ -27,6 +30,14 @@ class ShownFigure(Figure):
         elif not {"projection", "polar"} & set(settings):
             settings.setdefault("axes_class", ShownAxes)
         return super().add_subplot(*args, **settings)
+
+    def sign(self, text: str) -> None:
+        """Say below all panels of which engine and run they are; every text once."""
+        texts = [*getattr(self, "_signatures", ()), text]
+        self._signatures = list(dict.fromkeys(texts))
+        shown = self._signatures[:SIGNED] + ["..."] * (len(self._signatures) > SIGNED)
+        look: dict[str, Any] = {"x": 0.995, "ha": "right", "fontsize": "x-small", "color": "0.45"}
+        self.supxlabel(" | ".join(shown), **look)
 
     def _repr_png_(self) -> bytes:
         image = BytesIO()

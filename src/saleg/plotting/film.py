@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
     from saleg.simulation.run import Run
 
-#: Height over width, and dots per inch.
-SHAPE, DOTS = 0.62, 80
+#: Height over width, dots per inch, and size of text [pt]: it is read on a phone too.
+SHAPE, DOTS, FONT = 0.62, 80, 13.0
 #: Time since the beginning of what is shown.
 SHOWN_TIME = TIME._replace(label=axis_label(readable("", "s", "time")))
 
@@ -64,20 +64,24 @@ class Film:
         width: float,
     ) -> Film:
         """A film of the last cycle, or of a window of time."""
+        from matplotlib import rc_context
+
         whole, closed = _shown(run, window)
         t = whole["t"].to_numpy()
         chosen = np.linspace(t[0], t[-1], frames, endpoint=not closed)
         history = type(whole)({name: np.interp(chosen, t, whole[name]) for name in whole})
-        figure = new_figure(width, SHAPE * width)
-        figure.set_dpi(DOTS)
-        grid = figure.add_gridspec(2, 2, height_ratios=(1.0, 1.7))
-        machine = figure.add_subplot(grid[0, :])
-        film = cls(figure, machine, history, run.engine, rate, [], [])
-        film._draw_machine(run, (t[-1] - t[0]) * rate / frames)
-        film._draw_pressures(figure.add_subplot(grid[1, 0]), whole, SHOWN_TIME)
-        film._draw_pressures(figure.add_subplot(grid[1, 1]), whole, VOLUME)
-        film.show(0)
-        figure.canvas.draw()
+        slowness = (t[-1] - t[0]) * rate / frames
+        with rc_context({"font.size": FONT}):
+            figure = new_figure(width, SHAPE * width)
+            figure.set_dpi(DOTS)
+            grid = figure.add_gridspec(2, 2, height_ratios=(1.0, 1.7))
+            machine = figure.add_subplot(grid[0, :])
+            film = cls(figure, machine, history, run.engine, rate, [], [])
+            film._draw_machine(run, slowness)
+            film._draw_pressures(figure.add_subplot(grid[1, 0]), whole, SHOWN_TIME)
+            film._draw_pressures(figure.add_subplot(grid[1, 1]), whole, VOLUME)
+            film.show(0)
+            figure.canvas.draw()
         figure.set_layout_engine("none")  # nothing but the engine moves from frame to frame
         return film
 
@@ -147,6 +151,7 @@ class Film:
             self.cursors.append(self._follow(dot, column, f"p_{side}", start, across.scale))
         from_zero(ax)
         ax.set_xlim(left=0.0)
+        ax.locator_params(axis="x", nbins=5)
         ax.set_xlabel(across.label)
         ax.set_ylabel(PRESSURE.label)
         finish(ax, "", "upper right" if across.sided else None)

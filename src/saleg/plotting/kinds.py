@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from saleg.plotting.overlay import ALONE, Place
 from saleg.plotting.style import LEFT_COLOUR, RIGHT_COLOUR
 from saleg.status import Status
 
@@ -70,15 +71,19 @@ def _examined(table: pd.DataFrame) -> np.ndarray:
     return np.ones(len(table), bool)
 
 
-def draw_kind(panel: Axes, x: np.ndarray, y: np.ndarray, rows: np.ndarray, kind: Kind) -> None:
+def draw_kind(
+    panel: Axes,
+    x: np.ndarray,
+    y: np.ndarray,
+    rows: np.ndarray,
+    kind: Kind,
+    place: Place = ALONE,
+) -> None:
     """Points of a kind, joined only where neighbours are of it; without figures, on the axis."""
+    look = {**kind.look, "label": place.text(kind.label)}
     if kind is NO_FIGURES:
-        panel.plot(
-            x[rows],
-            np.full(int(rows.sum()), 0.02),
-            transform=panel.get_xaxis_transform(),
-            label=kind.label,
-            **kind.look,
-        )
+        height = np.full(int(rows.sum()), 0.02)
+        panel.plot(x[rows], height, transform=panel.get_xaxis_transform(), **look)
         return
-    panel.plot(x, np.where(rows, y, np.nan), label=kind.label, **kind.look)
+    look["color"] = place.colour(kind.look["color"])
+    panel.plot(x, np.where(rows, y, np.nan), **look)

@@ -106,9 +106,37 @@ def placed(ax: Axes, run: Run, label: str | None) -> Iterator[Place]:
     ------
     Place
     """
+    ending = "" if run.status.ended_well else f" ({run.status})"
+    with _placed(ax, label, "run", ending) as place:
+        yield place
+
+
+@contextmanager
+def placed_table(ax: Axes, label: str | None) -> Iterator[Place]:
+    """Place of a table on some axes, as :func:`placed` gives that of a run."""
+    with _placed(ax, label, "table") as place:
+        yield place
+
+
+@contextmanager
+def _placed(ax: Axes, label: str | None, what: str, ending: str = "") -> Iterator[Place]:
     count, number = len(ax.get_lines()), runs_on(ax)
-    name = str(label) if label else f"run {number + 1}" if number else ""
-    if name and not run.status.ended_well:
-        name += f" ({run.status})"
-    yield Place(number, name)
+    name = str(label) if label else f"{what} {number + 1}" if number else ""
+    yield Place(number, f"{name}{ending}" if name else "")
     ax.get_lines()[count].set_gid(_FIRST_CURVE)
+
+
+def sign(ax: Axes, run: Run) -> None:
+    """Name engine and settings of a run below a figure made here; others are left as they are."""
+    from saleg.plotting.figure import ShownFigure
+
+    if isinstance(ax.figure, ShownFigure):
+        ax.figure.sign(", ".join([run.engine.name or "engine", *_settings(run)]))
+
+
+def _settings(run: Run) -> list[str]:
+    """How a run was integrated, in words."""
+    known = run.settings
+    if known.get("method") == "fixed":
+        return [f"order {known.get('order', '-')}, steps of {1e6 * known['step']:g} µs"]
+    return [f"rtol {known['rtol']:g}"] if "rtol" in known else []

@@ -11,7 +11,7 @@ from saleg.plotting.docstrings import documented
 from saleg.plotting.gas import pressure_position
 from saleg.plotting.labels import label as label_of
 from saleg.plotting.labels import values
-from saleg.plotting.overlay import Place, placed, runs_on
+from saleg.plotting.overlay import Place, placed, runs_on, sign
 from saleg.plotting.style import (
     COINCIDING,
     TRANSLATOR_COLOUR,
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 #: Least relative height of an axis of :func:`approach_to_steady_state`: what varies less is steady.
 MIN_SPAN = 1e-4
+#: Relative distance from its last value within which a course is settled; cycles shown at least.
+SETTLED, FEWEST = 1e-3, 10
 
 
 @documented(axes=2)
@@ -59,7 +61,8 @@ def approach_to_steady_state(
     """Draw how a run settles, one point per cycle (Figure 42 of the thesis).
 
     Stroke [mm], dead centres as distances from the midpoint [mm], compression ratio and electrical
-    power [kW] over time [s]. What varies by less than 1e-4 of itself looks constant.
+    power [kW] over time [s]. What varies by less than 1e-4 of itself looks constant; what comes
+    once all is settled is left out.
     """
     cycles = run.cycles
     if len(cycles) == 0:
@@ -74,6 +77,7 @@ def approach_to_steady_state(
     if not place.alone:
         legend_below(panels)
     stroke.set_title(title, fontsize="medium")
+    sign(stroke, run)
     return panels
 
 
@@ -85,9 +89,9 @@ def _draw_cycles(panels: Panels, run: Run, place: Place) -> None:
     points: dict[str, Any] = {"marker": ".", "markersize": 4.0}
     line = {**points, "color": place.colour(TRANSLATOR_COLOUR), "label": place.name or "_cycles"}
     stroke.plot(time, values(cycles, "stroke"), **line)
-    for side, sign in (("left", -1.0), ("right", 1.0)):
+    for side, way in (("left", -1.0), ("right", 1.0)):
         look = {**points, "linestyle": COINCIDING[side].line, "linewidth": COINCIDING[side].width}
-        distance = sign * values(cycles, f"x_{side}")
+        distance = way * values(cycles, f"x_{side}")
         centres.plot(time, distance, color=place.sides[side], label=place.text(side), **look)
     ratio.plot(time, cycles["compression_ratio"].to_numpy(), **line)
     power.plot(time, values(cycles, "power"), **line)
@@ -97,13 +101,24 @@ def _draw_cycles(panels: Panels, run: Run, place: Place) -> None:
         (ratio, "compression_ratio", ""),
         (power, "power", "mean power"),
     ):
-        start, end = float(cycles["t"].iloc[0]), float(time[-1])
+        start, end = float(cycles["t"].iloc[0]), settled_time(run)
         if place.number:
             start, end = min(start, panel.get_xlim()[0]), max(end, panel.get_xlim()[1])
         panel.set_xlim(start, end + 0.02 * (end - start) * (place.number == 0))
         panel.set_xlabel(label_of(cycles, "t"))
         panel.set_ylabel(label_of(cycles, name, words))
         _readable(panel)
+
+
+def settled_time(run: Run) -> float:
+    """Time up to which the cycles of a run are shown: twice as long as it takes to settle [s]."""
+    last = 0
+    for name in ("stroke", "x_left", "x_right", "compression_ratio", "power"):
+        course = run.cycles[name].to_numpy()
+        off = np.flatnonzero(np.abs(course - course[-1]) > SETTLED * abs(course[-1]))
+        last = max(last, int(off[-1]) + 1 if len(off) else 0)
+    end = run.cycles.iloc[min(max(2 * last, FEWEST), len(run.cycles) - 1)]
+    return float(end["t"] + end["period"])
 
 
 def _readable(ax: Axes) -> None:

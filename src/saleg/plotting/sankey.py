@@ -15,6 +15,7 @@ from saleg.plotting.energy import (
     named,
     visible_flows,
 )
+from saleg.plotting.overlay import sign
 from saleg.plotting.style import TRANSLATOR_COLOUR, axes_or_new
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ def energy_sankey(run: Run, ax: Axes | None = None, *, label: str | None = None)
     ax.set_ylim(lowest - 0.02, highest)
     ax.set_axis_off()
     ax.set_title(titled(run, named("Energy balance of a cycle", label)), fontsize="medium")
+    sign(ax, run)
     return ax
 
 

@@ -14,7 +14,9 @@ import numpy as np
 from saleg.errors import SweepError, shown
 from saleg.plotting.docstrings import documented
 from saleg.plotting.kinds import UNSTABLE, draw_kind, kinds
-from saleg.plotting.labels import label, values
+from saleg.plotting.labels import label as label_of
+from saleg.plotting.labels import values
+from saleg.plotting.overlay import placed_table
 from saleg.plotting.style import (
     LEFT_COLOUR,
     axes_or_new,
@@ -53,7 +55,7 @@ WIDE = 40.0
 
 
 @documented(axes=8)
-def panels(table: pd.DataFrame, x: str, ax: Any = None) -> Panels:
+def panels(table: pd.DataFrame, x: str, ax: Any = None, *, label: str | None = None) -> Panels:
     """Draw stability, compression, performance and score along one input (Figures 67-82).
 
     Parameters
@@ -63,20 +65,72 @@ def panels(table: pd.DataFrame, x: str, ax: Any = None) -> Panels:
         combinations.
     x : str
         The input along the axes.
+    label : str, optional
+        Name of the table in the legend. Tables on the same axes differ in colour.
     """
     shown = _shown(table, x)
     _check(table, [x, *shown])
     axes = panels_or_new(ax, (2, 4), 13.2, 6.2, sharex=True)
     lines = _lines(table, x)
-    for panel, name in zip(axes, shown, strict=False):
-        for line in lines:
-            for kind, rows in kinds(line):
-                if rows.any():
-                    draw_kind(panel, values(line, x), values(line, name), rows, kind)
-        _dress(panel, table, x, name)
+    with placed_table(axes[0], label) as place:
+        for panel, name in zip(axes, shown, strict=False):
+            for line in lines:
+                for kind, rows in kinds(line):
+                    if rows.any():
+                        draw_kind(panel, values(line, x), values(line, name), rows, kind, place)
+            _dress(panel, table, x, name)
     _hide(axes[len(shown) :])
     legend_below(axes)
     return axes
+
+
+@documented(axes=8)
+def maps(table: pd.DataFrame, x: str, y: str, ax: Any = None) -> Panels:
+    """Draw stability, compression, performance and score over two inputs, as colours.
+
+    A grid is drawn as cells, other points as dots. Points without a steady state are blank,
+    unstable ones are crossed.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`saleg.sweep.run`.
+    x, y : str
+        The inputs.
+    """
+    shown = [name for name in _shown(table, x) if name != y]
+    _check(table, [x, y, *shown])
+    axes = panels_or_new(ax, (2, 4), 14.0, 6.4, sharex=True, sharey=True)
+    kept = _orbits(table)
+    kept.attrs = table.attrs
+    at = values(kept, x), values(kept, y)
+    unstable = ~kept["stable"].to_numpy(dtype=bool) if "stable" in kept else np.zeros(0, dtype=bool)
+    for panel, name in zip(axes, shown, strict=False):
+        drawn = _coloured(panel, kept, x, y, name)
+        if unstable.any():
+            panel.scatter(
+                at[0][unstable], at[1][unstable], marker="x", s=9, c="0.25", linewidths=0.7
+            )
+        panel.figure.colorbar(drawn, ax=panel, pad=0.02)
+        panel.set_title(label_of(table, name), fontsize="medium")
+        if panel.get_subplotspec().is_last_row():
+            panel.set_xlabel(label_of(table, x))
+        if panel.get_subplotspec().is_first_col():
+            panel.set_ylabel(label_of(table, y))
+    _hide(axes[len(shown) :])
+    axes[0].figure.suptitle(_count(table), fontsize="medium")
+    return axes
+
+
+def _coloured(panel: Axes, kept: pd.DataFrame, x: str, y: str, name: str) -> Any:
+    """A figure over two inputs: cells where they are a grid, dots where they are not."""
+    across, up, colour = (values(kept, column) for column in (x, y, name))
+    columns, rows = np.unique(across), np.unique(up)
+    if len(columns) * len(rows) > 2 * len(kept) or min(len(columns), len(rows)) < 2:
+        return panel.scatter(across, up, c=colour, s=14.0)
+    cells = np.full((len(rows), len(columns)), np.nan)
+    cells[np.searchsorted(rows, up), np.searchsorted(columns, across)] = colour
+    return panel.pcolormesh(columns, rows, cells, shading="nearest")
 
 
 @documented(axes=8)
@@ -142,10 +196,10 @@ def design_map(
         ax.plot([a, a], [b, b], [floor, c], color="0.85", linewidth=0.4, zorder=0)
     dots = _cloud(ax, kept, at, values(kept, colour), 14.0, depthshade=False)
     ax.set_zlim(bottom=floor)
-    ax.set_xlabel(label(table, x))
-    ax.set_ylabel(label(table, y))
-    ax.set_zlabel(label(table, z))
-    ax.figure.colorbar(dots, ax=ax, label=label(table, colour), shrink=0.75, pad=0.12)
+    ax.set_xlabel(label_of(table, x))
+    ax.set_ylabel(label_of(table, y))
+    ax.set_zlabel(label_of(table, z))
+    ax.figure.colorbar(dots, ax=ax, label=label_of(table, colour), shrink=0.75, pad=0.12)
     ax.set_title(_count(table), fontsize="medium")
     return ax
 
@@ -275,9 +329,9 @@ def _logarithmic(panel: Axes) -> None:
 
 def _dress(panel: Axes, table: pd.DataFrame, x: str, name: str) -> None:
     """Labels of a panel; the unit circle where multipliers are drawn."""
-    finish(panel, label(table, name), None)
+    finish(panel, label_of(table, name), None)
     if panel.get_subplotspec() is None or panel.get_subplotspec().is_last_row():  # type: ignore[union-attr]
-        panel.set_xlabel(label(table, x))
+        panel.set_xlabel(label_of(table, x))
     if name == "largest_multiplier":
         panel.axhline(1.0, color="black", linewidth=0.8, linestyle=":")
         panel.set_ylim(0.0, max(1.2, min(panel.get_ylim()[1], 3.0)))

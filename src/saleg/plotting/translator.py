@@ -39,13 +39,26 @@ from saleg.plotting.style import (
 from saleg.simulation.readable import readable
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.axes import Axes
 
+    from saleg.engine import Engine
     from saleg.plotting.figure import ShownAxes
     from saleg.simulation.run import Run
 
 FORCE = readable("spring_force", "N", "force to the right")
 EFFICIENCY = readable("efficiency", "-")
+#: Constant pressures, the sum of the forces, and the colours of all of them.
+BEHIND, INERTIA = "behind the pistons", "inertia (sum)"
+FORCE_COLOURS = {
+    "gas left": LEFT_COLOUR,
+    "gas right": RIGHT_COLOUR,
+    "springs": SPRING_COLOUR,
+    "alternator": ALTERNATOR_COLOUR,
+    "friction": FRICTION_COLOUR,
+    BEHIND: "#CC79A7",
+    INERTIA: TRANSLATOR_COLOUR,
+}
 
 
 @figure_of_cycle
@@ -71,30 +84,34 @@ def forces(cycle: Cycle, ax: ShownAxes) -> ShownAxes:
     Pressure of the gas on either crown, springs, friction and alternator; their sum is mass times
     acceleration, drawn as inertia (Figure 93 of the thesis).
     """
-    history, engine, place = cycle.history, cycle.run.engine, cycle.place
-    left, right = engine.piston_areas
-    time = cycle(TIME)
+    place, time = cycle.place, cycle(TIME)
     zero_lines(ax, y=True)
-    for label, force, colour, line in (
-        ("gas left", left * history["p_left"], LEFT_COLOUR, "-"),
-        ("gas right", -right * history["p_right"], RIGHT_COLOUR, "-"),
-        ("springs", history["spring_force"], SPRING_COLOUR, "-"),
-        ("alternator", -history["alternator_force"], ALTERNATOR_COLOUR, "-"),
-        ("friction", -history["friction_force"], FRICTION_COLOUR, "-"),
-        (
-            "inertia (sum)",
-            engine.translator.mass * history["a"],
-            TRANSLATOR_COLOUR,
-            (0, (5, 1.5)),
-        ),
-    ):
-        look: dict[str, Any] = {"color": colour, "linestyle": place.line(line)}
-        ax.plot(time, FORCE.of(force.to_numpy()), label=label, **look)
+    for label, force in forces_on(cycle.run.engine, cycle.history).items():
+        line = (0, (5, 1.5)) if label == INERTIA else "-"
+        look: dict[str, Any] = {"color": FORCE_COLOURS[label], "linestyle": place.line(line)}
+        ax.plot(time, FORCE.of(force), label=label, **look)
     if not place.alone:
         ax.plot([], [], color="0.4", linestyle=place.line(), label=place.name)
     time_axis(ax, cycle)
     ax.set_ylabel(axis_label(FORCE))
     return finish_cycle(ax, cycle, "Forces on the translator", "below", columns=3)
+
+
+def forces_on(engine: Engine, history: pd.DataFrame) -> dict[str, np.ndarray]:
+    """Forces on the translator over a history by name, positive to the right [N]."""
+    left, right = engine.piston_areas
+    forces = {
+        "gas left": left * history["p_left"],
+        "gas right": -right * history["p_right"],
+        "springs": history["spring_force"],
+        "alternator": -history["alternator_force"],
+        "friction": -history["friction_force"],
+        BEHIND: np.full(len(history), engine.back_force),
+        INERTIA: engine.translator.mass * history["a"],
+    }
+    if engine.back_force == 0.0:
+        del forces[BEHIND]
+    return {name: np.asarray(force) for name, force in forces.items()}
 
 
 @figure_of_cycle

@@ -426,6 +426,8 @@ class RunningEngine:
             piston_area=self.piston_area,
             fuel_energy=fuel + self.earlier_fuel,
             speed_squared=squared + self.earlier_speed_squared,
+            x_left=min(float(self.y[POSITION]), self.x_dead_centre),
+            x_right=max(float(self.y[POSITION]), self.x_dead_centre),
         )
         self.earlier_fuel, self.earlier_speed_squared = fuel, squared
         self.machine.stroke = stroke.length

@@ -234,4 +234,6 @@ def stroke_before(engine: Engine, start: Initial, piston_area: float) -> Stroke:
         piston_area=piston_area,
         fuel_energy=0.0,
         speed_squared=0.0,
+        x_left=-0.5 * start.stroke,
+        x_right=0.5 * start.stroke,
     )

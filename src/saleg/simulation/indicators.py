@@ -207,10 +207,18 @@ def beyond_ports(engine: Engine, strokes: np.ndarray) -> np.ndarray:
 
 def stroke_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
     """Geometric compression ratio of every stroke, between its dead centres [-]."""
+    return np.asarray(compression_ratio(engine, *_ends(strokes)), dtype=float)
+
+
+def own_compression_ratios(engine: Engine, side: int, strokes: np.ndarray) -> np.ndarray:
+    """The same of the left (0) or right (1) chamber alone [-]."""
+    return np.asarray(own_compression_ratio(engine, side, *_ends(strokes)), dtype=float)
+
+
+def _ends(strokes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Left and right dead centre of every stroke [m]."""
     start, end = strokes["x_start"], strokes["x_end"]
-    return np.asarray(
-        compression_ratio(engine, np.minimum(start, end), np.maximum(start, end)), dtype=float
-    )
+    return np.minimum(start, end), np.maximum(start, end)
 
 
 def cycle_compression_ratios(engine: Engine, strokes: np.ndarray) -> np.ndarray:
@@ -235,15 +243,32 @@ def compression_ratio(engine: Engine, low: Any, high: Any) -> Any:
     -------
     float or ndarray
     """
+    greatest, least = 0.0, 0.0
+    for side, chamber in enumerate(engine.chambers):
+        if isinstance(chamber, CombustionChamber) or not engine.has_combustion:
+            far, near = _clearances(engine, side, low, high)
+            greatest = greatest + chamber.area * far
+            least = least + chamber.area * near
+    return greatest / least
+
+
+def own_compression_ratio(engine: Engine, side: int, low: Any, high: Any) -> Any:
+    """Geometric compression ratio of the left (0) or right (1) chamber alone [-].
+
+    Between two positions as in :func:`compression_ratio`.
+    """
+    far, near = _clearances(engine, side, low, high)
+    return far / near
+
+
+def _clearances(engine: Engine, side: int, low: Any, high: Any) -> tuple[Any, Any]:
+    """Greatest and least clearance of a chamber between two positions [m]; heads end the way."""
     left, right = engine.chambers
     low = np.maximum(low, -NEAREST * left.half_stroke)
     high = np.minimum(high, NEAREST * right.half_stroke)
-    greatest, least = 0.0, 0.0
-    for chamber, near, far in ((left, low, high), (right, -high, -low)):
-        if isinstance(chamber, CombustionChamber) or not engine.has_combustion:
-            greatest = greatest + chamber.area * (chamber.half_stroke + far)
-            least = least + chamber.area * (chamber.half_stroke + near)
-    return greatest / least
+    far, near = (high, low) if side == 0 else (-low, -high)
+    length = engine.chambers[side].half_stroke
+    return length + far, length + near
 
 
 def closure(engine: Engine, cycle: np.ndarray) -> Any:

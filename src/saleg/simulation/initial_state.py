@@ -197,6 +197,8 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
         piston_area=0.5 * (C[0].area + C[1].area),
         fuel_energy=0.0,
         speed_squared=0.0,
+        x_left=-0.5 * start.stroke,
+        x_right=0.5 * start.stroke,
     )
     E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)

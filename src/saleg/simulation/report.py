@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from saleg.simulation.performance import FIGURES, Performance
 from saleg.simulation.readable import readable
@@ -51,7 +51,12 @@ def describe_remarks(remarks: list[str]) -> list[str]:
 
 def describe_ranges(run: Run) -> list[str]:
     """A line for every law that was asked outside the range it was made for."""
-    rows = {(row["law"], row["quantity"]): row for row in run.range_exits}
+    return describe_exits(run.range_exits)
+
+
+def describe_exits(exits: list[dict[str, Any]]) -> list[str]:
+    """A line for every law of :func:`.ranges.range_exits`."""
+    rows = {(row["law"], row["quantity"]): row for row in exits}
     return [
         f"  outside its range: {row['law']} is for {row['quantity'].replace('_', ' ')} "
         f"{row['low']:g} to {row['high']:g} {'' if row['unit'] == '-' else row['unit']}, "

@@ -10,6 +10,7 @@ from saleg.engine import Engine
 from saleg.simulation.indicators import (
     cycle_compression_ratios,
     full_cycles,
+    own_compression_ratios,
     stroke_compression_ratios,
 )
 
@@ -57,6 +58,8 @@ DEAD_CENTRE_UNITS = {
     "intake_temperature": "K",
     "peak_pressure_left": "Pa",
     "peak_pressure_right": "Pa",
+    "compression_ratio_left": "-",
+    "compression_ratio_right": "-",
 }
 
 EVENT_UNITS = {
@@ -157,6 +160,8 @@ def dead_centre_table(engine: Engine, strokes: np.ndarray) -> pd.DataFrame:
         "intake_temperature": strokes["intake_temperature"],
         "peak_pressure_left": strokes["peak_pressure"][:, 0],
         "peak_pressure_right": strokes["peak_pressure"][:, 1],
+        "compression_ratio_left": own_compression_ratios(engine, 0, strokes),
+        "compression_ratio_right": own_compression_ratios(engine, 1, strokes),
     }
     return Table.of(columns, DEAD_CENTRE_UNITS)
 

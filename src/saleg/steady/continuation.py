@@ -28,6 +28,7 @@ from saleg.steady.return_map import (
     NoReturn,
     ReturnMap,
     repeats_itself,
+    step_tolerance,
 )
 from saleg.steady.sealed_gas import (
     missing_entropy,
@@ -256,6 +257,7 @@ class _Follower:
         self.start, self.way = start, stop - start
         self.longest = longest / abs(self.way)
         self.mirrored = first.mirrored
+        self.steps = step_tolerance(first.engine, FINE)
         self.ended, self.trouble = "", 0
 
     def engine_at(self, s: float) -> Engine:
@@ -269,7 +271,7 @@ class _Follower:
         for name in ("mode", "armed"):
             state.chambers[name] = like.chambers[name]
         state.engine["direction"] = like.engine["direction"]
-        return ReturnMap.of(engine, state.copy(), FINE, self.mirrored), state
+        return ReturnMap.of(engine, state.copy(), self.steps, self.mirrored), state
 
     def residual(self, s: float, z: np.ndarray, like: State) -> np.ndarray:
         """Residual of the map: image of a vector less the vector.
@@ -402,7 +404,7 @@ class _Follower:
         if cycle.code != layout.END_OF_TIME:
             raise NoReturn(cycle.code)
         steady = result_of(
-            return_map, 0, return_map.evaluations, cycle.missed, "continuation", FINE
+            return_map, 0, return_map.evaluations, cycle.missed, "continuation", self.steps
         )
         period = float(steady.strokes["duration"].sum())
         stability = judged(own_multipliers(self.engine, jacobian), self.mirrored, period)

@@ -25,6 +25,7 @@ from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
 from saleg.status import Status
+from saleg.steady.lanes import find_each
 from saleg.steady.lines import Lines, lines_among, no_lines
 from saleg.steady.return_map import (
     ReturnMap,
@@ -114,7 +115,7 @@ class Orbits(NamedTuple):
         )
 
 
-def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
+def steady_rows(rows: Rows, rtol: float, effort: Effort, total: int = 1) -> list[Orbits]:
     """Orbits of those among some engines that have one where the first start leads.
 
     Parameters
@@ -124,6 +125,8 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
     rtol : float
         Tolerance of the integrator.
     effort : Effort
+    total : int
+        Number of engines in the batch they are a piece of.
 
     Returns
     -------
@@ -134,7 +137,7 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort) -> list[Orbits]:
     taken = (QUICK_MAPS, QUICK_STEPS) if quick else (MAX_MAPS, THOROUGH_STEPS)
     limits = {True: Limits(*taken, MIRROR_MISSED), False: Limits(*taken, MAX_MISSED)}
     lots = lots_to_search(rows)
-    found = (searched(lot, mirrored, rtol, limits[mirrored]) for lot, mirrored in lots)
+    found = (searched(lot, mirrored, rtol, limits[mirrored], total) for lot, mirrored in lots)
     return [orbits for orbits in found if orbits is not None]
 
 
@@ -176,6 +179,7 @@ def searched(
     mirrored: bool,
     rtol: float,
     limits: Limits,
+    total: int = 1,
     tell: Callable[[States, np.ndarray], None] | None = None,
     numbers: np.ndarray | None = None,
 ) -> Orbits | None:
@@ -190,6 +194,8 @@ def searched(
     rtol : float
         Tolerance of the integrator.
     limits : Limits
+    total : int
+        Number of engines in the batch they are a piece of.
     tell : callable, optional
         Writes into the states the search begins with, given whether each row has one.
     numbers : ndarray, shape (n, k), optional
@@ -204,7 +210,7 @@ def searched(
         tell(begin, ready)
     numbers = rows.numbers() if numbers is None else numbers[ready]
     lines = lines_among(numbers) if _may_follow(rows.engine) else no_lines(rows.count)
-    search = _Search(rows, begin, mirrored, rtol, limits)
+    search = _Search(rows, begin, mirrored, rtol, limits, 0 if lines.any else total)
     room, good = search.found(lines)
     if lines.any:
         search.check(lines, room, good)
@@ -242,6 +248,8 @@ class _Search(NamedTuple):
         Where each begins.
     mirrored, rtol, limits
         As for :func:`searched`.
+    total : int
+        As there if no engine follows another, else 0: lines are followed one by one.
     """
 
     rows: Rows
@@ -249,6 +257,7 @@ class _Search(NamedTuple):
     mirrored: bool
     rtol: float
     limits: Limits
+    total: int
 
     def found(self, lines: Lines) -> tuple[Searches, np.ndarray]:
         """What was found, and whether it is an orbit."""
@@ -256,7 +265,7 @@ class _Search(NamedTuple):
         states = self.begin.some(np.arange(rows.count))
         return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
         room = _room(rows, states, lines)
-        return_map.find_each(limits.max_maps, RESIDUAL * rtol, room)
+        find_each(return_map, limits.max_maps, RESIDUAL * rtol, room, self.total)
         strokes = room.strokes.reshape(-1, 2)
         good = room.codes == layout.END_OF_TIME
         good &= room.found["missed"] <= limits.missed * rtol

@@ -31,8 +31,11 @@ from saleg.kernel.orbit import (
     Z_CRANKCASE_MASS,
     Z_FRESH,
     Z_INTEGRAL,
+    Z_LN_CLOSING_PRESSURE,
+    Z_LN_CLOSING_TEMPERATURE,
     Z_LN_CRANKCASE,
     Z_LN_DURATION,
+    Z_LN_LIT,
     Z_LN_MASS_MOVING,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
@@ -47,7 +50,7 @@ from saleg.kernel.orbit import (
 from saleg.kernel.orbits import Searches
 from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
 from saleg.laws import NoHeatTransfer, NoMisfires
-from saleg.laws.arguments import Charge, Gas, Motion
+from saleg.laws.arguments import Charge, Gas, Motion, Stroke
 from saleg.laws.base import Alternator, Law
 from saleg.simulation.course import STEPS_PER_CALL, options_record
 from saleg.simulation.initial_rows import States
@@ -81,10 +84,15 @@ FARTHEST = 0.5
 DIFFERENCE = 1e-5
 #: Entries of the vector, per side, for the states that laws ask for; masses have entries anyway.
 ENTRIES_OF_STATES = {
-    "contents": (Z_FRESH,),
+    "contents": (Z_FRESH, Z_LN_LIT, Z_LN_CLOSING_PRESSURE, Z_LN_CLOSING_TEMPERATURE),
     "wall_temperature": (Z_WALL,),
     "crankcase": (Z_LN_CRANKCASE, Z_CRANKCASE_MASS, Z_CRANKCASE_BURNT),
 }
+#: Tolerance of the steps of an engine that breathes, over that of the map, and the least there is.
+FINER_WITH_CORNERS = 1e-3
+FINEST_WITH_CORNERS = 1e-12
+#: Scatter of the image of such an engine over the tolerance of the steps, at the most.
+SCATTER = 1e4
 
 
 class NoReturn(Exception):
@@ -195,7 +203,7 @@ class ReturnMap:
             address=searched.address,
             mirrored=mirrored,
         )
-        return cls(engine, searched.kernel, state, mirrored, strokes, mapping, _iterates())
+        return cls(engine, searched.kernel, state, mirrored, strokes, mapping, iterates_from())
 
     def finer(self, rtol: float, most_steps: int | None = None) -> ReturnMap:
         """The same map with another tolerance, from a copy of the present state."""
@@ -220,12 +228,14 @@ class ReturnMap:
 
     def find(self, max_maps: int, tolerance: float) -> Search:
         """Look for a fixed point by iteration and extrapolation (see the kernel's find_orbit)."""
-        self.iterates = _iterates()
+        self.iterates = iterates_from()
         return self._do(FIND, self.iterates, max_maps, tolerance)
 
     def find_each(self, max_maps: int, tolerance: float, searches: Searches) -> None:
         """Look for the fixed points of many engines of the same laws, one after the other."""
-        self.kernel.call("find_orbits", self.mapping, max_maps, tolerance, _iterates(), searches)
+        self.kernel.call(
+            "find_orbits", self.mapping, max_maps, tolerance, iterates_from(), searches
+        )
 
     def _do(
         self, task: int, iterates: Iterates, max_maps: int = 0, tolerance: float = 0.0
@@ -249,15 +259,15 @@ class ReturnMap:
             return
         words = self.mapping.integration.words.chambers
         self.mapping, asked = self.mapping._replace(mirrored=True), self.mapping
-        self._do(IMAGE, _iterates(self.vector(self.state)))
+        self._do(IMAGE, iterates_from(self.vector(self.state)))
         mirror(*self.state.records, self.state.y, words)  # half a cycle on, seen without the mirror
         self.mapping = asked
-        self._do(CYCLE, _iterates(self.vector(self.state)))
+        self._do(CYCLE, iterates_from(self.vector(self.state)))
 
     def cycle(self, start: State, z: np.ndarray) -> Search:
         """Whole cycle from a vector, recorded."""
         self.reset(start)
-        return self._do(CYCLE, _iterates(z))
+        return self._do(CYCLE, iterates_from(z))
 
     def reset(self, state: State) -> None:
         """Go to a copy of a state."""
@@ -275,7 +285,7 @@ class ReturnMap:
             If there is none.
         """
         self.reset(start)
-        iterates = _iterates(z)
+        iterates = iterates_from(z)
         code = self._do(IMAGE, iterates).code
         if code != layout.END_OF_TIME:
             raise NoReturn(code)
@@ -298,7 +308,7 @@ class ReturnMap:
         """
         differences = differences_at(self.engine, States.of(start), by)
         differences.points[0] = z
-        code = self.kernel.call("find_jacobian", self.mapping, _iterates(), differences)
+        code = self.kernel.call("find_jacobian", self.mapping, iterates_from(), differences)
         if code != layout.END_OF_TIME:
             raise NoReturn(int(code))
         matrix: np.ndarray = differences.matrices[0]
@@ -306,7 +316,7 @@ class ReturnMap:
 
     def jacobians(self, laws: np.ndarray, differences: Differences) -> None:
         """Differentiate the maps of many engines, whose laws have these numbers."""
-        self.kernel.call("find_jacobians", self.mapping, _iterates(), laws, differences)
+        self.kernel.call("find_jacobians", self.mapping, iterates_from(), laws, differences)
 
 
 def differences_at(engine: Engine, starts: States, by: float) -> Differences:
@@ -338,6 +348,25 @@ def differences_at(engine: Engine, starts: States, by: float) -> Differences:
     )
 
 
+def step_tolerance(engine: Engine, rtol: float) -> float:
+    """Tolerance of the steps of a return map.
+
+    Valves that lift and flows that turn are corners at which no step ends: the image scatters by
+    some hundred times the tolerance where an engine breathes.
+    """
+    return max(FINER_WITH_CORNERS * rtol, FINEST_WITH_CORNERS) if has_states(engine) else rtol
+
+
+def map_tolerance(engine: Engine, rtol: float) -> float:
+    """Tolerance to which a return can be told: above the scatter of the finest steps."""
+    return max(rtol, SCATTER * FINEST_WITH_CORNERS) if has_states(engine) else rtol
+
+
+def has_states(engine: Engine) -> bool:
+    """Whether chambers own states, beside pressure, that change as gas flows or walls warm up."""
+    return any(chamber.states for chamber in engine.chambers)
+
+
 def longest_return(engines: np.ndarray) -> np.ndarray:
     """Longest time to the next return of each engine [s]."""
     longest: np.ndarray = LONGEST * engines["length_scale"] / engines["speed_scale"]
@@ -354,12 +383,14 @@ def _moved_entries(engine: Engine, starts: States) -> np.ndarray:
         by_flow = starts.chambers["by_flow"][:, side] > 0.0
         for entry in (Z_LN_PRESSURE, Z_INTEGRAL, Z_LN_MOTORED):
             moved[:, first + entry] &= (mode != layout.OPEN) | by_flow
-        for entry in (Z_BURN_PHASE, Z_LN_DURATION, Z_TO_BURN):
+        for entry in (Z_BURN_PHASE, Z_LN_DURATION, Z_TO_BURN, Z_LN_LIT):
             moved[:, first + entry] &= mode == layout.BURNING
+        for entry in (Z_LN_CLOSING_PRESSURE, Z_LN_CLOSING_TEMPERATURE):
+            moved[:, first + entry] &= (mode != layout.OPEN) & by_flow
     return moved
 
 
-def _iterates(point: np.ndarray | None = None) -> Iterates:
+def iterates_from(point: np.ndarray | None = None) -> Iterates:
     """Room for points, residuals and images; begins at a point."""
     n = layout.N_VECTOR
     return Iterates(
@@ -370,6 +401,7 @@ def _iterates(point: np.ndarray | None = None) -> Iterates:
         residuals=np.zeros((DEPTH, n)),
         gram=np.zeros((DEPTH, DEPTH + 2)),
         modes=np.zeros(2, np.int64),
+        counts=np.zeros(2, np.int64),
     )
 
 
@@ -386,7 +418,8 @@ def constant_entries(engine: Engine) -> set[int]:
             kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
             kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED, first + Z_WALL}
         elif isinstance(chamber, BounceChamber):  # gas flows, but no charge is composed
-            kept |= {first + Z_INTEGRAL, first + Z_RATIO}
+            kept |= {first + Z_INTEGRAL, first + Z_RATIO, first + Z_LN_LIT}
+            kept |= {first + Z_LN_CLOSING_PRESSURE, first + Z_LN_CLOSING_TEMPERATURE}
         if not engine.needs_motored_pressure:
             kept.add(first + Z_LN_MOTORED)
     return kept | unused_entries(engine)
@@ -474,7 +507,7 @@ def is_symmetric(engine: Engine) -> bool:
         try:
             there = _forces(engine, Motion(0.0, x, v, direction, current))
             mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
-            signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
+            signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0)
             for sign, a, b in zip(signs, there, mirrored, strict=True):
                 if abs(sign * a - b) > 1e-12 * abs(a):
                     return False
@@ -501,7 +534,8 @@ def _probes(engine: Engine) -> list[tuple[float, float, float, float]]:
 
 
 def _forces(engine: Engine, motion: Motion) -> list[float]:
-    """Forces and the rate of the current, then energies: odd and even in the mirror."""
+    """Forces and the rate of the current, then energies and what is held: odd, then even."""
+    stroke = _stroke_at(engine, motion)
     return [
         engine.springs.force(motion),
         engine.friction.force(1.0, motion),
@@ -509,4 +543,15 @@ def _forces(engine: Engine, motion: Motion) -> list[float]:
         engine.alternator.current_rate(1.0, motion),
         engine.springs.energy(motion),
         engine.alternator.electrical_power(1.0, motion),
+        engine.alternator.at_dead_centre(1.0, stroke),
+        engine.friction.at_dead_centre(1.0, stroke),
     ]
+
+
+def _stroke_at(engine: Engine, motion: Motion) -> Stroke:
+    """A stroke that ends at different distances from the midpoint."""
+    half, speed = 0.5 * engine.maximum_stroke, abs(motion.v)
+    ends = sorted((motion.x, -0.9 * motion.x))
+    length = ends[1] - ends[0]
+    area = 0.5 * sum(chamber.area for chamber in engine.chambers)
+    return Stroke(length, length / speed, 2.0 * half, half, area, 1.0, speed, *ends)

@@ -33,7 +33,17 @@ SLOW = 0.1
 MAX_JUMPS = 30
 MAX_VAIN_JUMPS = 3
 #: Steps to one return that differences of the map may take; the base case takes four hundred.
-FINE_STEPS = 3000
+FINE_STEPS = 10_000
+#: Length of a Newton's step from which on the slow motion itself is followed instead, how far
+#: at once, and what shares of that are tried.
+NEARBY = 0.1
+LONGEST = 0.25
+SHARES = (1.0, 0.5, 0.25, 0.125)
+#: Maps between two steps along the slow motion, and returns that one may stand for.
+MAPS_ON_THE_WAY = 2
+MAX_RETURNS = 1e9
+#: Steps along the slow motion and jumps after them.
+MAX_FOLLOWED = 16
 #: Slowness of a map from which the error of its steps counts: it displaces the fixed point by as
 #: many times itself.
 SLOWEST = 30.0
@@ -47,7 +57,11 @@ FINEST = 1e-9
 
 
 def find_settled(
-    return_map: ReturnMap, max_maps: int, tolerance: float, patient: bool = True
+    return_map: ReturnMap,
+    max_maps: int,
+    tolerance: float,
+    patient: bool = True,
+    follow: bool = False,
 ) -> tuple[Search, int]:
     """Look for a fixed point that is near in all states, the slow ones included.
 
@@ -60,6 +74,8 @@ def find_settled(
         Residual of the map.
     patient : bool
         Whether to go on from what has not settled but may only be slow.
+    follow : bool
+        Whether to follow the slow motion where the fixed point is far.
 
     Returns
     -------
@@ -71,7 +87,7 @@ def find_settled(
     strokes, slow = 0, False
     begin, smallest = return_map.state.copy(), SLOW
     shortest, vain = np.inf, 0
-    for _ in range(MAX_JUMPS):
+    for _ in range(MAX_FOLLOWED if follow else MAX_JUMPS):
         found = return_map.find(max_maps, tolerance)
         settled = found.code == layout.END_OF_TIME
         strokes += int(found.maps * return_map.strokes_per_map) + (2 if settled else 0)
@@ -82,16 +98,22 @@ def find_settled(
             smallest = found.residual
         # What was slow once is known too badly from two residuals: there the next jump decides.
         if slow or not settled or not is_near(return_map, NEAR * tolerance):
-            slow, jump = True, newton_step(return_map)
+            slow, jump = True, newton_step(return_map, follow)
             if jump is None:
                 break
             length = float(np.abs(jump).max())
-            vain += length >= shortest
-            if vain >= MAX_VAIN_JUMPS:
-                break
-            shortest = min(shortest, length)
+            if follow and length > NEARBY:
+                smallest = SLOW  # on the way the residual may well grow
+            else:
+                vain += length >= shortest
+                if vain >= MAX_VAIN_JUMPS:
+                    break
+                shortest = min(shortest, length)
             if not settled or length > NEAR * tolerance:
-                return_map.jump(jump)
+                if not follow:
+                    return_map.jump(jump)
+                elif not jump_to_return(return_map, jump):
+                    break
                 continue
         if not give_back_entropy(return_map, begin, NEAR * tolerance):
             return found, strokes
@@ -140,8 +162,11 @@ def free_entries(engine: Engine) -> list[int]:
     return sorted(set(range(layout.N_VECTOR)) - fixed)
 
 
-def newton_step(return_map: ReturnMap) -> np.ndarray | None:
-    """Way from the present state to the fixed point, as Newton's method has it; None if unknown."""
+def newton_step(return_map: ReturnMap, follow: bool = False) -> np.ndarray | None:
+    """Way from the present state to the fixed point, as Newton's method has it; None if unknown.
+
+    Where that is far and the slow motion is to be followed, a part of the way that takes.
+    """
     state = return_map.state
     start = State(state.engine.copy(), state.chambers.copy(), state.y.copy(), np.zeros(0))
     fine = return_map.finer(FINE, FINE_STEPS)
@@ -155,8 +180,53 @@ def newton_step(return_map: ReturnMap) -> np.ndarray | None:
     if not np.isfinite(matrix).all() or not np.isfinite(residual).all():
         return None
     jump = np.zeros(len(z))
-    jump[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], residual[free], rcond=None)[0]
+    matrix, residual = matrix[np.ix_(free, free)], residual[free]
+    jump[free] = np.linalg.lstsq(matrix, residual, rcond=None)[0]
+    if follow and np.abs(jump).max() > NEARBY:
+        jump[free] = slow_step(matrix, residual)
     return jump
+
+
+def jump_to_return(return_map: ReturnMap, jump: np.ndarray) -> bool:
+    """Take a jump, shortened until the state it leads to comes back near to itself; if it does."""
+    begin = return_map.state.copy()
+    for share in SHARES:
+        return_map.reset(begin)
+        return_map.jump(share * jump)
+        there = return_map.state.copy()
+        z = return_map.vector(there)
+        try:
+            missed = np.abs(return_map.image(there, z) - z).max()
+        except NoReturn:
+            continue
+        if missed < SLOW:
+            return_map.reset(there)
+            return True
+    return False
+
+
+def slow_step(matrix: np.ndarray, residual: np.ndarray) -> np.ndarray:
+    """Step that stands for as many returns as move the state by no more than `LONGEST`.
+
+    Far away Newton's method may lead to where no fixed point is: the leak of a gas spring that
+    slows down as the spring fills seems to end at an infinite mass. The implicit step of Euler's
+    method for n returns, ``(I / n + I - J) dz = residual``, goes where the motion itself goes, and
+    is Newton's as n grows.
+
+    Parameters
+    ----------
+    matrix : ndarray
+        Identity less the derivative of the map.
+    residual : ndarray
+    """
+    step, returns = residual, 1.0
+    while returns < MAX_RETURNS:
+        shift = np.eye(len(residual)) / returns
+        longer = np.linalg.lstsq(matrix + shift, residual, rcond=None)[0]
+        if not np.abs(longer).max() <= LONGEST:
+            break
+        step, returns = longer, 2.0 * returns
+    return step
 
 
 def give_back_entropy(return_map: ReturnMap, begin: State, tolerance: float) -> bool:

@@ -24,7 +24,7 @@ from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import Course, Replay
-from saleg.simulation.initial_state import natural_period, prepare
+from saleg.simulation.initial_state import State, natural_period, prepare
 from saleg.simulation.net_output import Auxiliaries, NetOutput, net_output_of
 from saleg.simulation.outcome import (
     MAX_IMBALANCE,
@@ -39,8 +39,21 @@ from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
-from saleg.steady.return_map import ReturnMap, Search, is_symmetric, repeats_itself
-from saleg.steady.slow_states import FINEST, find_settled, finer, is_sharp
+from saleg.steady.return_map import (
+    ReturnMap,
+    Search,
+    is_symmetric,
+    map_tolerance,
+    repeats_itself,
+    step_tolerance,
+)
+from saleg.steady.slow_states import (
+    FINEST,
+    MAPS_ON_THE_WAY,
+    find_settled,
+    finer,
+    is_sharp,
+)
 from saleg.steady.stability import Stability, stability
 
 if TYPE_CHECKING:
@@ -51,9 +64,6 @@ DEFAULT_TOLERANCE = 1e-6
 MAX_MAPS = 60
 #: Residual of the map a steady state may have, over the tolerance of the integrator.
 RESIDUAL = 1.0
-#: Tolerance of the steps of an engine that breathes, over that of the map, and the least there is.
-FINER_WITH_CORNERS = 1e-3
-FINEST_WITH_CORNERS = 1e-12
 #: Residual of the verifying cycle beyond which a fixed point does not count, over the tolerance:
 #: an unstable one grows away from itself.
 MAX_MISSED = 100.0
@@ -344,15 +354,20 @@ def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> Steady
     if quick:
         return _solved(engine, rtol, min(max_maps, QUICK_MAPS), quick)
     found = _solved(engine, rtol, max_maps, quick)
-    if found.status is Status.UNSTEADY and rtol > FINEST and not _is_given_up(found.fallback):
-        # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
-        again = _solved(engine, finer(rtol), max_maps, quick)
-        return replace(
-            again,
-            half_cycles=again.half_cycles + found.half_cycles,
-            evaluations=again.evaluations + found.evaluations,
-        )
-    return found
+    if found.status is not Status.UNSTEADY or _is_given_up(found.fallback):
+        return found
+    followed = _followed(engine, rtol, found)
+    if followed is not None:
+        return followed
+    if rtol <= FINEST:
+        return found
+    # Steps across a force or burn rate that jumps scatter: they may hide a steady state.
+    again = _solved(engine, finer(rtol), max_maps, quick)
+    return replace(
+        again,
+        half_cycles=again.half_cycles + found.half_cycles,
+        evaluations=again.evaluations + found.evaluations,
+    )
 
 
 def check_tolerance(rtol: float) -> float:
@@ -383,45 +398,73 @@ def check_effort(effort: Effort) -> None:
 def _solved(engine: Engine, rtol: float, max_maps: int, quick: bool) -> SteadyState:
     """Fixed point by iteration, from one start after the other; else simulation, unless quick."""
     symmetric = is_symmetric(engine)
-    spent = evaluations = 0
+    spent = Spent()
     ways = (False,) if not symmetric else (True,) if quick else (True, False)
     for start, mirrored in itertools.product(starts(engine), ways):
         state = prepare(replace(engine, start=start))
-        most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
-        steps = step_tolerance(engine, rtol)
-        return_map = ReturnMap.of(engine, state, steps, mirrored, most_steps)
-        found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick)
-        cycled = found.code == layout.END_OF_TIME
-        spent += strokes
-        evaluations += return_map.evaluations
-        if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
-            continue  # unstable, or not as symmetric as it looks
-        if not converged(found, rtol):
-            continue
-        return_map.begin_on_the_left()
-        if not is_sharp(return_map, found, rtol):
-            steps = step_tolerance(engine, finer(rtol))
-            sharper = return_map.finer(steps)
-            again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
-            spent += strokes
-            evaluations += sharper.evaluations - return_map.evaluations
-            if not converged(again, finer(rtol)):
-                continue
-            return_map, found = sharper, again
-        return result_of(return_map, spent, evaluations, found.missed, "fixed point", steps)
+        found = _from_state(engine, state, mirrored, rtol, max_maps, spent, quick=quick)
+        if found is not None:
+            return found
     if quick:
-        return not_found(engine, spent, evaluations, "no orbit from the standard starts")
-    return waited_for(engine, rtol, spent, evaluations, "the return map did not settle")
+        why = "no orbit from the standard starts"
+        return not_found(engine, spent.half_cycles, spent.evaluations, why)
+    why = "the return map did not settle"
+    return waited_for(engine, rtol, spent.half_cycles, spent.evaluations, why)
 
 
-def step_tolerance(engine: Engine, rtol: float) -> float:
-    """Tolerance of the steps of a return map.
+def _followed(engine: Engine, rtol: float, waited: SteadyState) -> SteadyState | None:
+    """Fixed point to which the slow motion leads on from the end of a simulation, if it does."""
+    if waited.fallback is None or not isinstance(waited.fallback.replay, Replay):
+        return None
+    late = waited.fallback.replay.start
+    spent = Spent(waited.half_cycles, waited.evaluations)
+    return _from_state(engine, late, False, rtol, MAPS_ON_THE_WAY, spent, follow=True)
 
-    Valves that lift and flows that turn are corners at which no step ends: the image scatters by
-    some hundred times the tolerance where an engine breathes.
-    """
-    breathes = any(chamber.states for chamber in engine.chambers)
-    return max(FINER_WITH_CORNERS * rtol, FINEST_WITH_CORNERS) if breathes else rtol
+
+@dataclass
+class Spent:
+    """Half cycles and right-hand sides that a search has taken so far."""
+
+    half_cycles: int = 0
+    evaluations: int = 0
+
+
+def _from_state(
+    engine: Engine,
+    state: State,
+    mirrored: bool,
+    rtol: float,
+    max_maps: int,
+    spent: Spent,
+    *,
+    quick: bool = False,
+    follow: bool = False,
+) -> SteadyState | None:
+    """Fixed point by iteration from one state, counted in `spent`; None if it leads to none."""
+    most_steps = QUICK_STEPS if quick else THOROUGH_STEPS
+    rtol, steps = map_tolerance(engine, rtol), step_tolerance(engine, rtol)
+    return_map = ReturnMap.of(engine, state, steps, mirrored, most_steps)
+    before = return_map.evaluations
+    found, strokes = find_settled(return_map, max_maps, RESIDUAL * rtol, not quick, follow)
+    cycled = found.code == layout.END_OF_TIME
+    spent.half_cycles += strokes
+    spent.evaluations += return_map.evaluations - before
+    if mirrored and cycled and found.missed > MIRROR_MISSED * rtol:
+        return None  # unstable, or not as symmetric as it looks
+    if not converged(found, rtol):
+        return None
+    return_map.begin_on_the_left()
+    if not is_sharp(return_map, found, rtol):
+        steps = step_tolerance(engine, finer(rtol))
+        sharper = return_map.finer(steps)
+        again, strokes = find_settled(sharper, max_maps, RESIDUAL * finer(rtol), not quick)
+        spent.half_cycles += strokes
+        spent.evaluations += sharper.evaluations - return_map.evaluations
+        if not converged(again, finer(rtol)):
+            return None
+        return_map, found = sharper, again
+    counts = spent.half_cycles, spent.evaluations
+    return result_of(return_map, *counts, found.missed, "fixed point", steps)
 
 
 def starts(engine: Engine) -> Iterator[Start]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from saleg.compiler.compiled_engine import numbers_of_rows
 from saleg.kernel.layout import END_OF_TIME
 from saleg.steady.many import Orbits
-from saleg.steady.return_map import ReturnMap, differences_at
+from saleg.steady.return_map import ReturnMap, differences_at, step_tolerance
 from saleg.steady.stability import DIFFERENCE, TOLERANCE, Stability, stability_of
 
 #: What in the state of an engine says how its mass follows from its motion. No disturbance of an
@@ -30,7 +30,8 @@ def stabilities(orbits: Orbits) -> list[Stability]:
     one, starts = orbits.rows.row(0), orbits.starts
     for name in MASS_LAW:
         starts.engine[name] = 0.0
-    return_map = ReturnMap.of(one, starts.row(0), TOLERANCE, orbits.mirrored)
+    steps = step_tolerance(one, TOLERANCE)
+    return_map = ReturnMap.of(one, starts.row(0), steps, orbits.mirrored)
     differences = differences_at(one, starts, DIFFERENCE)
     return_map.jacobians(numbers_of_rows(orbits.rows.engine, count), differences)
     periods = orbits.strokes["duration"].sum(axis=1).tolist()

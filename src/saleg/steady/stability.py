@@ -11,7 +11,7 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.simulation.course import Replay
 from saleg.simulation.run import read_only
-from saleg.steady.return_map import NoReturn, ReturnMap, sealed_entries
+from saleg.steady.return_map import NoReturn, ReturnMap, sealed_entries, step_tolerance
 
 #: Tolerance of the integrator for differences of the map, which magnify its error.
 FINE = 1e-11
@@ -84,7 +84,8 @@ def stability(replay: Replay, mirrored: bool, period: float) -> Stability:
     Stability
     """
     start = replay.start
-    return_map = ReturnMap.of(replay.engine, start.copy(), TOLERANCE, mirrored)
+    steps = step_tolerance(replay.engine, TOLERANCE)
+    return_map = ReturnMap.of(replay.engine, start.copy(), steps, mirrored)
     jacobian: np.ndarray | None
     try:
         jacobian = return_map.jacobian(start, return_map.vector(start), DIFFERENCE)

@@ -17,10 +17,13 @@ from saleg.studies.convergence import (
     tolerance_study,
     work_precision,
 )
+from saleg.studies.elasticities import MAIN_FIGURES, MAIN_INPUTS, elasticities
 from saleg.studies.printed import beside_thesis
 
 __all__ = [
     "DELAYED",
+    "MAIN_FIGURES",
+    "MAIN_INPUTS",
     "TABLE_2_STEPS",
     "TABLE_4_TIMES",
     "UNITS",
@@ -30,6 +33,7 @@ __all__ = [
     "compare",
     "delay_study",
     "delayed",
+    "elasticities",
     "sensitivity",
     "solver_study",
     "step_size_study",

@@ -8,7 +8,7 @@ from typing import Any
 from saleg.laws.arguments import Signals
 from saleg.laws.control.base import LoadControl
 from saleg.laws.profiles import at_time
-from saleg.laws.usual import POWER, TIME
+from saleg.laws.usual import LENGTH, POWER, TIME
 from saleg.quantities import quantity, series
 
 
@@ -19,6 +19,49 @@ class StrokeRegulator(LoadControl):
     def weight(self, memory: Any, signals: Signals) -> float:
         """Load weight [-], Eq. 59."""
         return 0.0 if signals.motoring > 0.0 else signals.regulated_weight
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeadCentreRegulator(LoadControl):
+    """Load that holds one dead centre: a piston that comes too near to its head is braked more.
+
+    ``W = 1 - K_p e - K_i (integral of e)`` with ``e = 1 - d / d_target``, d the distance of the
+    dead centre from the midpoint. The integral stands still while W is at a limit and e would
+    drive it further, and while the alternator is a motor.
+
+    Parameters
+    ----------
+    distance : float
+        Distance d_target from the midpoint at which the dead centre is to be [m].
+    right : float
+        1 for the right dead centre, 0 for the left one [-].
+    proportional_gain : float
+        K_p [-].
+    integral_gain : float
+        K_i [1/s].
+    maximum_weight : float
+        Largest load weight [-].
+    """
+
+    distance: float = quantity("m", default=0.09, low=0, open_low=True, usual=LENGTH)
+    right: float = quantity("-", default=0.0, low=0, high=1)
+    proportional_gain: float = quantity("-", default=5.0, low=0)
+    integral_gain: float = quantity("1/s", default=20.0, low=0)
+    maximum_weight: float = quantity("-", default=2.0, low=0)
+
+    def weight(self, memory: Any, signals: Signals) -> float:
+        """Load weight [-]; holds the integral of the error, and its time."""
+        elapsed = signals.t - memory[1]
+        memory[1] = signals.t
+        if signals.motoring > 0.0:
+            return 0.0
+        reached = signals.x_right if self.right > 0.0 else -signals.x_left
+        error = 1.0 - reached / self.distance
+        gathered = memory[0] + (error * elapsed if signals.was_motoring == 0.0 else 0.0)
+        weight = 1.0 - self.proportional_gain * error - self.integral_gain * gathered
+        if 0.0 <= weight <= self.maximum_weight or (weight < 0.0) == (error < 0.0):
+            memory[0] = gathered
+        return min(max(weight, 0.0), self.maximum_weight)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ import numpy as np
 from saleg.control.moments import first_misfire, fuel_cuts, late_ignitions, motored_times
 from saleg.plotting.cycle import NoCycle, title_of
 from saleg.plotting.labels import TIME, label, values
-from saleg.plotting.overlay import ALONE, Place
+from saleg.plotting.overlay import ALONE, Place, sign
 from saleg.plotting.style import (
     ALTERNATOR_COLOUR,
     COINCIDING,
@@ -73,17 +73,20 @@ def draw(ax: Axes, run: Run, name: str, place: Place = ALONE, **look: Any) -> No
         ax.set_ylim(min(low, ax.get_ylim()[0]), max(high, ax.get_ylim()[1]))
 
 
-def draw_peaks(ax: Axes, run: Run, name: str, text: str) -> None:
+def draw_peaks(ax: Axes, run: Run, name: str, text: str, place: Place = ALONE) -> None:
     """Peaks of either cylinder in every cycle."""
     cycles = run.cycles
     time = (cycles["t"] + cycles["period"]).to_numpy()
-    for side, colour in COLOURS.items():
+    for side, colour in place.sides.items():
         column, look = f"{name}_{side}", COINCIDING[side]
         line: dict[str, Any] = {"linestyle": look.line, "linewidth": look.width, "color": colour}
-        ax.plot(time, values(cycles, column), label=side, **line)
+        ax.plot(time, values(cycles, column), label=place.text(side), **line)
     ax.set_ylabel(label(cycles, f"{name}_left", text))
     both = [values(cycles, f"{name}_{side}") for side in COLOURS]
+    top = ax.get_ylim()[1]
     _limit(ax, name, time, np.maximum(*both))
+    if place.number:
+        ax.set_ylim(top=max(top, ax.get_ylim()[1]))
 
 
 def _limit(ax: Axes, name: str, time: np.ndarray, drawn: np.ndarray) -> None:
@@ -151,6 +154,7 @@ def finished(
         if spec is None or spec.is_last_row():
             panel.set_xlabel(TIME)
     panels[0].set_title(first, fontsize="medium")
+    sign(panels[0], run)
     if legend_on is not None:
         legend_on.legend(fontsize="small", loc="lower right", edgecolor="none")
     else:

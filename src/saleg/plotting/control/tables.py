@@ -11,7 +11,9 @@ from saleg.control.maps import OperatingMap
 from saleg.control.moments import stretches
 from saleg.plotting.docstrings import documented
 from saleg.plotting.kinds import NO_FIGURES, STABLE, draw_kind, kinds
-from saleg.plotting.labels import label, values
+from saleg.plotting.labels import label as label_of
+from saleg.plotting.labels import values
+from saleg.plotting.overlay import placed_table
 from saleg.plotting.style import (
     LEFT_COLOUR,
     RIGHT_COLOUR,
@@ -70,23 +72,31 @@ def motored_resonance(table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | Non
 
 
 @documented(axes=2)
-def operating_map(known: OperatingMap, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
+def operating_map(
+    known: OperatingMap,
+    ax: Sequence[Axes] | np.ndarray | None = None,
+    *,
+    label: str | None = None,
+) -> Panels:
     """Draw power [kW] and compression ratio [-] of steady states over a quantity (Fig. 101, 104).
 
     Parameters
     ----------
     known : OperatingMap
+    label : str, optional
+        Name of the map in the legend. Maps on the same axes differ in colour.
     """
     panels = panels_or_new(ax, (2, 1), 6.4, 5.4, sharex=True)
     table, path = known.table, known.path
-    for panel, name in zip(panels, ("power", "compression_ratio"), strict=True):
-        for kind, rows in kinds(table):
-            if rows.any():
-                draw_kind(panel, values(table, path), values(table, name), rows, kind)
-        panel.set_ylabel(label(table, name))
-        panel.set_ylim(bottom=0.0)
-        finish(panel, "", None)
-    panels[-1].set_xlabel(label(table, path))
+    with placed_table(panels[0], label) as place:
+        for panel, name in zip(panels, ("power", "compression_ratio"), strict=True):
+            for kind, rows in kinds(table):
+                if rows.any():
+                    draw_kind(panel, values(table, path), values(table, name), rows, kind, place)
+            panel.set_ylabel(label_of(table, name))
+            panel.set_ylim(bottom=0.0)
+            finish(panel, "", None)
+    panels[-1].set_xlabel(label_of(table, path))
     panels[0].set_title("Steady operation", fontsize="medium")
     legend_below(panels)
     return panels
@@ -114,10 +124,10 @@ def operating_grid(table: pd.DataFrame, ax: Sequence[Axes] | np.ndarray | None =
                 if kind is NO_FIGURES:
                     look |= {"marker": "x", "markersize": 5}
                 panel.plot(values(table, x)[rows], values(table, y)[rows], label=kind.label, **look)
-        panel.set_xlabel(label(table, x))
-        finish(panel, label(table, name), None)
+        panel.set_xlabel(label_of(table, x))
+        finish(panel, label_of(table, name), None)
         panel.grid(visible=False)
-    panels[0].set_ylabel(label(table, y))
+    panels[0].set_ylabel(label_of(table, y))
     legend_below(panels)
     return panels
 
@@ -180,12 +190,12 @@ def _motored(
             panel.plot(at[beats], heights[beats], "o", markersize=4.5, label=UNSETTLED, **look)
         for column, (text, alpha) in PORTS.items():
             _shade(panel, at, ordered[column].to_numpy(dtype=bool), label=text, alpha=alpha)
-        panel.set_ylabel(label(ordered, name, words))
+        panel.set_ylabel(label_of(ordered, name, words))
         panel.margins(x=0.0)
         finish(panel, "", None)
     panels[0].set_ylim(0.0, 1.08 * panels[0].dataLim.ymax)
     panels[1].set_ylim(1.0, 1.0 + 1.08 * (panels[1].dataLim.ymax - 1.0))
-    panels[-1].set_xlabel(label(ordered, x))
+    panels[-1].set_xlabel(label_of(ordered, x))
     panels[0].set_title(f"Motored: {_fixed(ordered, other)}", fontsize="medium")
     legend_below(panels)
     return panels

@@ -42,7 +42,9 @@ CONSTANT = 1e-3
 
 
 @documented(axes=6)
-def start_up(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
+def start_up(
+    run: Run, ax: Sequence[Axes] | np.ndarray | None = None, *, label: str | None = None
+) -> Panels:
     """Draw commands, and what the cylinders answer, during a start-up (Figure 97).
 
     Motor frequency [Hz], load weight [-] and equivalence ratio [-]; peak pressures [bar], peak
@@ -50,25 +52,30 @@ def start_up(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
     """
     check(run)
     panels = panels_or_new(ax, (3, 2), 10.0, 6.0, sharex=True)
-    for panel, name in zip(panels[::2], COMMANDS[:3], strict=True):
-        draw(panel, run, name)
-    draw_peaks(panels[1], run, "peak_pressure", "peak pressure")
-    draw_peaks(panels[3], run, "peak_temperature", "peak temperature")
-    draw(panels[5], run, "compression_ratio")
-    return finished(panels, run, "Start-up", columns=2)
+    with placed(panels[0], run, label) as place:
+        for panel, name in zip(panels[::2], COMMANDS[:3], strict=True):
+            draw(panel, run, name, place)
+        draw_peaks(panels[1], run, "peak_pressure", "peak pressure", place)
+        draw_peaks(panels[3], run, "peak_temperature", "peak temperature", place)
+        draw(panels[5], run, "compression_ratio", place)
+    return finished(panels, run, "Start-up", columns=2, place=place)
 
 
 @documented(axes=2)
-def approach(run: Run, ax: Sequence[Axes] | np.ndarray | None = None) -> Panels:
+def approach(
+    run: Run, ax: Sequence[Axes] | np.ndarray | None = None, *, label: str | None = None
+) -> Panels:
     """Draw how compression ratio [-] and stroke [mm] grow until the engine is fired (Figure 98)."""
     check(run)
     panels = panels_or_new(ax, (2, 1), 6.8, 5.2, sharex=True)
     at = fired_at(run)
-    for panel, name in zip(panels, ("compression_ratio", "stroke"), strict=True):
-        draw(panel, run, name)
-        if not np.isnan(at):
-            panel.axvline(at, color=RIGHT_COLOUR, linestyle="--", label=f"fired at {at:.2f} s")
-    return finished(panels, run, "Start-up")
+    with placed(panels[0], run, label) as place:
+        colour, text = place.colour(RIGHT_COLOUR), place.text(f"fired at {at:.2f} s")
+        for panel, name in zip(panels, ("compression_ratio", "stroke"), strict=True):
+            draw(panel, run, name, place)
+            if not np.isnan(at):
+                panel.axvline(at, color=colour, linestyle="--", label=text)
+    return finished(panels, run, "Start-up", place=place)
 
 
 @documented()
@@ -143,6 +150,7 @@ def duty_cycle(
     *,
     gas: bool = False,
     window: tuple[float, float] | None = None,
+    label: str | None = None,
 ) -> Panels:
     """Draw a duty cycle: start-up, operation and what disturbs it (Figures 106 to 108).
 
@@ -167,15 +175,16 @@ def duty_cycle(
     check(run)
     rows = 3 if gas else 2
     panels = panels_or_new(ax, (rows, 2), 10.0, 2.1 * rows + 0.8, sharex=True)
-    for panel, name in zip(
-        panels, ("compression_ratio", "stroke", "frequency", "power"), strict=False
-    ):
-        draw(panel, run, name)
-    if gas:
-        draw_peaks(panels[4], run, "peak_pressure", "peak pressure")
-        draw_peaks(panels[5], run, "peak_temperature", "peak temperature")
-    draw_moments(panels, run)
-    finished(panels, run, "Duty cycle", columns=2)
+    names = ("compression_ratio", "stroke", "frequency", "power")
+    with placed(panels[0], run, label) as place:
+        for panel, name in zip(panels, names, strict=False):
+            draw(panel, run, name, place)
+        if gas:
+            draw_peaks(panels[4], run, "peak_pressure", "peak pressure", place)
+            draw_peaks(panels[5], run, "peak_temperature", "peak temperature", place)
+    if place.number == 0:
+        draw_moments(panels, run)
+    finished(panels, run, "Duty cycle", columns=2, place=place)
     if window is not None:
         for panel in panels:
             panel.set_xlim(*window)
@@ -201,7 +210,15 @@ def controlled(
                 draw(panel, run, name, place)
     if place.number == 0:
         draw_moments(panels, run)
-    return finished(panels, run, "Under control", columns=2, place=place)
+    title = "Under control" if _is_commanded(run) else "Operation, and what was commanded"
+    return finished(panels, run, title, columns=2, place=place)
+
+
+def _is_commanded(run: Run) -> bool:
+    """Whether motor, fuel or intake were commanded to change; any engine's load may regulate."""
+    table = run.dead_centres
+    changed = ("motor_frequency", "equivalence_ratio", "intake_temperature")
+    return bool(table["motoring"].any()) or any(float(np.ptp(table[name])) > 0 for name in changed)
 
 
 def _varied(run: Run) -> str:

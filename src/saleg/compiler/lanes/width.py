@@ -1,0 +1,3 @@
+"""Engines side by side; a composed module has its own number of them."""
+
+WIDTH = 8

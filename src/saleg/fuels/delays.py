@@ -1,0 +1,220 @@
+"""Ignition delays of fuels in tables, as laws: those kept here, and any by a chemical mechanism."""
+
+from __future__ import annotations
+
+import csv
+import itertools
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from saleg.errors import nearest, shown
+from saleg.fuels.mixtures import added, mass_of, times
+from saleg.fuels.real_fuel import FuelError, RealFuel, pure
+from saleg.laws import TabulatedDelay
+from saleg.quantities import as_float
+
+#: Fuels whose delays are kept, and the mechanisms they were computed with: GRI-Mech 3.0 and its
+#: part for hydrogen.
+KEPT = {
+    "methane": "gri30.yaml",
+    "propane": "gri30.yaml",
+    "hydrogen": "h2o2.yaml",
+}
+#: Grid of the tables kept: evenly spaced in 1/T and in ln p.
+TEMPERATURES = tuple(float(round(1.0 / x, 1)) for x in np.linspace(1 / 750.0, 1 / 1800.0, 17))
+PRESSURES = tuple(float(round(p, -3)) for p in np.geomspace(4e5, 200e5, 9))
+EQUIVALENCE_RATIOS = (0.3, 0.5, 0.7, 1.0)
+BURNT_SHARES = (0.0, 0.2, 0.5)
+#: Delay beyond which a charge counts as one that does not light [s].
+LONGEST = 10.0
+#: Names of species in mechanisms, where they are not those of NASA.
+FORMULAS = {
+    "methane": "CH4",
+    "propane": "C3H8",
+    "hydrogen": "H2",
+    "ammonia": "NH3",
+    "dimethyl ether": "CH3OCH3",
+    "methanol": "CH3OH",
+    "ethanol": "C2H5OH",
+    "iso-octane": "IC8H18",
+    "n-heptane": "NC7H16",
+    "toluene": "C6H5CH3",
+    "oxygen": "O2",
+    "nitrogen": "N2",
+    "carbon dioxide": "CO2",
+    "water": "H2O",
+}
+
+
+def ignition_delays(fuel: RealFuel) -> TabulatedDelay:
+    """Ignition delays of methane, propane or hydrogen, from the tables kept here.
+
+    They were made by :func:`compute_delays`: 750 K to 1800 K, 4 bar to 200 bar, phi 0.3 to 1 and up
+    to half of burnt gas.
+
+    Parameters
+    ----------
+    fuel : RealFuel
+
+    Returns
+    -------
+    TabulatedDelay
+        For the slot ``ignition``.
+
+    Raises
+    ------
+    FuelError
+        If no table is kept for that fuel.
+
+    Examples
+    --------
+    >>> from saleg import fuels
+    >>> law = fuels.ignition_delays(fuels.methane)
+    >>> len(law.delays) == len(law.pressures) * len(law.temperatures) * 12
+    True
+    """
+    name = getattr(fuel, "name", fuel)
+    if name not in KEPT:
+        hint = nearest(str(name), KEPT) or f"; there are {', '.join(KEPT)}"
+        raise FuelError(f"no ignition delays are kept for {shown(name)}{hint}; see compute_delays")
+    file = resources.files("saleg.fuels").joinpath(f"delays_{name}.csv")
+    rows = list(csv.DictReader(file.read_text(encoding="utf-8").splitlines()))
+    axes = [sorted({float(row[key]) for row in rows}) for key in ("burnt", "p_Pa", "T_K", "phi")]
+    shares, pressures, temperatures, ratios = map(tuple, axes)
+    delays = tuple(float(row["delay_s"]) for row in rows)
+    return TabulatedDelay(pressures, temperatures, ratios, delays, shares)
+
+
+def compute_delays(
+    fuel: RealFuel,
+    mechanism: str,
+    *,
+    pressures: Sequence[float] = PRESSURES,
+    temperatures: Sequence[float] = TEMPERATURES,
+    equivalence_ratios: Sequence[float] = EQUIVALENCE_RATIOS,
+    burnt_shares: Sequence[float] = BURNT_SHARES,
+    species: dict[str, str] | None = None,
+) -> TabulatedDelay:
+    """Compute ignition delays by a chemical mechanism; needs the extra ``saleg[chemistry]``.
+
+    The delay is the time to the steepest rise of the temperature at constant volume, adiabatic;
+    10 s where nothing lights.
+
+    Parameters
+    ----------
+    fuel : RealFuel
+    mechanism : str
+        Mechanism of Cantera, such as ``"gri30.yaml"``.
+    pressures, temperatures, equivalence_ratios, burnt_shares : sequence of float
+        Grid [Pa], [K], [-], [-], each rising.
+    species : dict of str to str, optional
+        What the mechanism calls molecules of :func:`saleg.fuels.pure`, air and products, where it
+        does not follow their formulas.
+
+    Returns
+    -------
+    TabulatedDelay
+
+    Raises
+    ------
+    FuelError
+        If Cantera is not installed, the mechanism lacks a molecule, or a grid is none.
+    """
+    grids = {
+        "burnt_shares": burnt_shares,
+        "pressures": pressures,
+        "temperatures": temperatures,
+        "equivalence_ratios": equivalence_ratios,
+    }
+    wrong = [
+        f"{name} = {shown(grid)}: must be rising numbers > 0 (burnt shares from 0)"
+        for name, grid in grids.items()
+        if not _is_grid(grid, name)
+    ]
+    if not isinstance(fuel, RealFuel):
+        wrong.append(f"fuel = {shown(fuel)}: must be a fuel of saleg.fuels")
+    if wrong:
+        raise FuelError("\n".join(wrong))
+    gas = _solution(mechanism)
+    names = FORMULAS | (species or {})
+    delays = []
+    for share, p, T, ratio in itertools.product(*grids.values()):
+        moles = _charge(fuel, float(ratio), float(share))
+        unknown = [names[key] for key in moles if names[key] not in gas.species_names]
+        if unknown:
+            raise FuelError(f"{mechanism} has no {', '.join(unknown)}: name them in species")
+        gas.TPX = T, p, {names[key]: amount for key, amount in moles.items()}
+        delays.append(_delay(gas))
+    axes = {name: tuple(map(float, grid)) for name, grid in grids.items()}
+    return TabulatedDelay(delays=tuple(delays), **axes)
+
+
+def _is_grid(grid: Any, name: str) -> bool:
+    numbers = [as_float(value) for value in grid] if isinstance(grid, (list, tuple)) else []
+    least = 0.0 if name == "burnt_shares" else 1e-9
+    known = [number for number in numbers if number is not None and number >= least]
+    rising = all(a < b for a, b in itertools.pairwise(known))
+    return bool(numbers) and len(known) == len(numbers) and rising
+
+
+def _solution(mechanism: str) -> Any:
+    """Gas of a mechanism."""
+    try:
+        import cantera
+    except ImportError:
+        raise FuelError('needs Cantera: pip install "saleg[chemistry]"') from None
+    try:
+        return cantera.Solution(mechanism)
+    except Exception as error:
+        raise FuelError(f"mechanism = {shown(mechanism)}: Cantera cannot read it") from error
+
+
+def _charge(fuel: RealFuel, ratio: float, burnt: float) -> dict[str, float]:
+    """Molecules of a charge with a share of burnt gas by mass."""
+    fresh, gone = fuel.fresh(ratio), fuel.burnt(ratio)
+    moles = added(times((1.0 - burnt) / mass_of(fresh), fresh), times(burnt / mass_of(gone), gone))
+    return {name: amount for name, amount in moles.items() if amount > 0.0}
+
+
+def _delay(gas: Any) -> float:
+    """Time to the steepest rise of the temperature at constant volume [s]."""
+    import cantera
+
+    reactor = cantera.IdealGasReactor(gas, clone=False)
+    net = cantera.ReactorNet([reactor])
+    net.rtol, net.atol = 1e-8, 1e-15
+    begin = before = reactor.T
+    steepest, found, time = 0.0, LONGEST, 0.0
+    while net.time < LONGEST:
+        net.step()
+        slope = (reactor.T - before) / (net.time - time)
+        if slope > steepest:
+            steepest, found = slope, 0.5 * (net.time + time)
+        if begin + 400.0 < reactor.T and slope < 0.1 * steepest:
+            break
+        before, time = reactor.T, net.time
+    return min(found, LONGEST) if begin + 200.0 < reactor.T else LONGEST
+
+
+def write_kept(folder: Path) -> None:
+    """Write the tables kept here anew, into a folder; takes some minutes.
+
+    Parameters
+    ----------
+    folder : Path
+    """
+    for name, mechanism in KEPT.items():
+        law = compute_delays(pure(name), mechanism)
+        grid = itertools.product(
+            law.burnt_shares, law.pressures, law.temperatures, law.equivalence_ratios
+        )
+        rows = [
+            f"{share:g},{p:g},{T:g},{ratio:g},{delay:.5g}"
+            for (share, p, T, ratio), delay in zip(grid, law.delays, strict=True)
+        ]
+        text = "\n".join(["burnt,p_Pa,T_K,phi,delay_s", *rows, ""])
+        (folder / f"delays_{name}.csv").write_text(text, encoding="utf-8")

@@ -1,0 +1,1 @@
+"""Many engines side by side, W at once, each with its own step, events and modes."""

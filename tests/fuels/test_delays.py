@@ -1,0 +1,140 @@
+"""Ignition delays from chemistry, and Livengood-Wu's integral over them."""
+
+import numpy as np
+import pytest
+
+import saleg
+from saleg import fuels, laws
+from saleg.fuels import FuelError, delays
+from saleg.laws import Charge, Gas
+
+MECHANISMS = {"methane": "gri30.yaml", "propane": "gri30.yaml", "hydrogen": "h2o2.yaml"}
+
+
+def rate_of(law, p, T, ratio, burnt):
+    gas = Gas(p, T, 1.0, p, 1.0, 1.0, 1.0, 500.0, 0.0, 0.0, 0.0)
+    charge = Charge(1.0, 0.0, 0.0, burnt, ratio, p, T, 1.0, 1.0)
+    return law.rate(gas, charge)
+
+
+def test_table_over_burnt_gas_is_interpolated():
+    law = laws.TabulatedDelay(
+        pressures=(1e6, 4e6),
+        temperatures=(1000.0,),
+        equivalence_ratios=(0.5, 1.0),
+        delays=(4e-3, 2e-3, 1e-3, 5e-4, 16e-3, 8e-3, 4e-3, 2e-3),
+        burnt_shares=(0.0, 0.4),
+    )
+    for (p, ratio, burnt), delay in (
+        ((1e6, 0.5, 0.0), 4e-3),
+        ((1e6, 1.0, 0.4), 8e-3),
+        ((4e6, 1.0, 0.9), 2e-3),
+        ((2e6, 0.5, 0.0), 2e-3),
+        ((2e6, 0.75, 0.2), 2.0 * 2.0**0.5 * 1e-3),
+    ):
+        assert rate_of(law, p, 1000.0, ratio, burnt) == pytest.approx(1.0 / delay, rel=1e-12)
+
+
+@pytest.mark.parametrize("fuel", [fuels.methane, fuels.propane, fuels.hydrogen], ids=str)
+def test_kept_delays_are_computed_again(fuel):
+    pytest.importorskip("cantera", reason="needs the extra 'chemistry'")
+    kept = fuels.ignition_delays(fuel)
+    law = fuels.compute_delays(
+        fuel,
+        MECHANISMS[fuel.name],
+        pressures=kept.pressures[3:4],
+        temperatures=kept.temperatures[8:10],
+        equivalence_ratios=(0.5,),
+        burnt_shares=(0.2,),
+    )
+    for T, delay in zip(law.temperatures, law.delays, strict=True):
+        assert rate_of(kept, law.pressures[0], T, 0.5, 0.2) == pytest.approx(1 / delay, rel=2e-3)
+
+
+def compressed(fuel, ratio, T, compression, reacting):
+    """Times, temperatures and pressures of a charge compressed harmonically at 47 Hz (Cantera)."""
+    cantera = pytest.importorskip("cantera", reason="needs the extra 'chemistry'")
+    gas = cantera.Solution(MECHANISMS[fuel.name])
+    names = delays.FORMULAS
+    gas.TPX = T, 1.05e5, {names[key]: n for key, n in fuel.fresh(ratio).items()}
+    if not reacting:
+        gas.set_multiplier(0.0)
+    reactor = cantera.IdealGasReactor(gas, clone=False)
+    reactor.volume = 1.0
+    air = cantera.Reservoir(cantera.Solution("air.yaml"), clone=False)
+    wall = cantera.Wall(reactor, air)
+    wall.area, omega = 1.0, 2.0 * np.pi * 47.0
+    wall.velocity = lambda t: -0.5 * (1.0 - 1.0 / compression) * omega * np.sin(omega * t)
+    net = cantera.ReactorNet([reactor])
+    net.rtol, net.atol, net.max_time_step = 1e-8, 1e-15, 2e-5
+    rows = [(0.0, T, 1.05e5)]
+    while net.time < 1.2 * np.pi / omega:
+        net.step()
+        rows.append((net.time, reactor.T, reactor.phase.P))
+    return np.array(rows).T
+
+
+@pytest.mark.parametrize(
+    ("fuel", "T", "compression"),
+    [
+        (fuels.methane, 325.0, 28.0),
+        (fuels.methane, 420.0, 28.0),
+        (fuels.methane, 460.0, 20.0),
+        (fuels.propane, 460.0, 20.0),
+        (fuels.hydrogen, 325.0, 20.0),
+        (fuels.hydrogen, 400.0, 16.0),
+    ],
+    ids=str,
+)
+def test_integral_over_the_table_lights_when_chemistry_does(fuel, T, compression):
+    t, hot, _ = compressed(fuel, 0.6, T, compression, reacting=True)
+    t_inert, warm, p = compressed(fuel, 0.6, T, compression, reacting=False)
+    law = fuels.ignition_delays(fuel)
+    rates = np.array([rate_of(law, *state, 0.6, 0.0) for state in zip(p, warm, strict=True)])
+    steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(t_inert)
+    integral = np.concatenate([[0.0], np.cumsum(steps)])
+    lit = hot.max() > warm.max() + 500.0
+    assert lit == bool(integral[-1] >= 1.0)
+    if lit:
+        chemistry = t[np.argmax(np.gradient(hot, t))]
+        ours = np.interp(1.0, integral, t_inert)
+        assert abs(ours - chemistry) < 0.06e-3
+
+
+def test_chemistry_does_not_light_the_base_case(base):
+    """Methane at 325 K does not ignite at the compression ratio of the thesis' engine."""
+    engine = fuels.fill(base, fuels.methane).replace(ignition=fuels.ignition_delays(fuels.methane))
+    run = saleg.simulate(engine, 0.3)
+    assert "ignition" not in set(run.events["event"].iloc[3:])
+
+
+def test_hydrogen_runs_at_less_compression_than_methane(base):
+    """Published for simulated dual engines: natural gas 43, hydrogen 29 (Fredriksson, Denbratt)."""
+    ratios = {}
+    for fuel in (fuels.hydrogen, fuels.methane):
+        engine = fuels.fill(base, fuel, equivalence_ratio=0.5).replace(
+            ignition=fuels.ignition_delays(fuel),
+            **{"intake.temperature": 560.0, "alternator.load_constant": 20.0},
+        )
+        steady = saleg.steady_state(engine)
+        assert steady.status == saleg.Status.STEADY
+        ratios[fuel.name] = steady.performance.compression_ratio
+    assert ratios["hydrogen"] < ratios["methane"]
+
+
+def test_wrong_tables_are_named():
+    for call, words in (
+        (lambda: fuels.ignition_delays(fuels.toluene), "no ignition delays are kept for 'toluene'"),
+        (lambda: fuels.compute_delays("methane", "gri30.yaml"), "must be a fuel"),
+        (
+            lambda: fuels.compute_delays(fuels.methane, "x", pressures=[2e5, 1e5], temperatures=[]),
+            "temperatures = ",
+        ),
+    ):
+        with pytest.raises(FuelError, match=words):
+            call()
+    pytest.importorskip("cantera", reason="needs the extra 'chemistry'")
+    with pytest.raises(FuelError, match="Cantera cannot read it"):
+        fuels.compute_delays(fuels.methane, "no_such.yaml")
+    with pytest.raises(FuelError, match=r"h2o2\.yaml has no CH4"):
+        fuels.compute_delays(fuels.methane, "h2o2.yaml", burnt_shares=(0.0,))
