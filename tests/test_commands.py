@@ -12,7 +12,17 @@ from saleg.cli import main
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 #: What stands for something of the reader's own.
-MEANT = {"MACHINE": "thesis-base", "DIR": "results", "N": "2"}
+MEANT = {
+    "MACHINE": "thesis-base",
+    "MACHINE|FILE.toml|RUN": "thesis-base",
+    "DIR": "folder",
+    "N": "2",
+    "FIGURE": "17",
+    "EXPERIMENT": "start-up",
+    "STUDY": "stop-time",
+}
+#: Commands that do something without a word more.
+ALONE = ("list", "control", "design", "studies")
 #: Examples of files, by the command that reads them: the page they stand on.
 FILES = {"sweep": "sweeps.md", "optimize": "optimisation.md"}
 #: Designs of the optimisation that is run here.
@@ -20,9 +30,12 @@ FEW = 40
 
 
 def commands_of(page):
-    """Commands of a page in their order, those of its blocks left to others."""
-    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.M)
-    return [" ".join(found.split()) for found in re.findall(r"`saleg( [^`]+)`", text)]
+    """Commands of a page: those in its lines, then those in its blocks."""
+    text = page.read_text(encoding="utf-8")
+    lines = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.M)
+    found = re.findall(r"`saleg( [^`]+)`", lines)
+    found += re.findall(r"^saleg( .+)$", "".join(blocks("sh", text)), flags=re.M)
+    return [" ".join(command.split()) for command in found]
 
 
 def words_of(command):
@@ -46,9 +59,7 @@ def run(words):
     if "--processes" in words:
         return subprocess.run([sys.executable, "-m", "saleg", *words], check=False).returncode
     try:
-        return main(
-            words if len(words) > 1 or words[0] in ("list", "control") else [*words, "--help"]
-        )
+        return main(words if len(words) > 1 or words[0] in ALONE else [*words, "--help"])
     except SystemExit as done:
         return done.code
 

@@ -1,5 +1,6 @@
 """Numbers of the gallery and the comparison: within what is claimed, and as the pages have them."""
 
+import importlib.util
 import math
 from functools import partial
 
@@ -74,7 +75,8 @@ def test_all_figures_with_data_are_shown_once():
     assert numbers == sorted(FIGURES)
     for shown in claims.SHOWN:
         assert shown.claims
-        assert shown.says.endswith(".") or shown.says.endswith(").")
+        assert f"**{shown.title}**" in PAGES["gallery"]
+        assert f" {shown.says}\n" in PAGES["gallery"]
         assert (PICTURES / f"figure_{shown.figures[0]}.png").is_file()
         assert f"images/gallery/figure_{shown.figures[0]}.png" in PAGES["gallery"]
 
@@ -110,3 +112,18 @@ def test_deviations_of_numbers_and_of_words():
     claim = claims.Claim("stroke [mm]", float, "181", 180.0, 182.0)
     assert claim.deviation(190.05) == pytest.approx(0.05)
     assert np.isnan(claim._replace(printed="rises").deviation(2.0))
+
+
+def test_the_script_of_the_pages_draws_and_tells_what_they_show(tmp_path, monkeypatch):
+    path = ROOT / "examples" / "gallery" / "write_pages.py"
+    spec = importlib.util.spec_from_file_location("write_pages", path)
+    pages = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(pages)
+    monkeypatch.setattr(pages, "PICTURES", tmp_path)
+    pages.main([10, 15])
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["figure_10.png", "figure_15.png"]
+    assert PAGES["gallery"].startswith(pages.INTRODUCTION)
+    assert PAGES["comparison"].startswith(pages.COMPARISON)
+    for number in (10, 15):
+        shown = claims.of(number)
+        assert pages.claims_table(shown, claims.data(shown)) in PAGES["gallery"]

@@ -443,7 +443,7 @@ PROTOTYPES = (
     Shown(
         (61,),
         "Prototype of West Virginia",
-        "As for Ulsan; heat is released as the note to Table 6 says.",
+        "As for Ulsan; the equivalence ratio is chosen to release the heat of Table 6.",
         (
             near(
                 "heat released per stroke [J]",

@@ -145,7 +145,11 @@ SWEEPS = (
         "Sweep of the intake pressure",
         "All rises as printed; the limit at two bar is not ours ([sweeps](sweeps.md)).",
         Claim(
-            "greatest stable pressure [bar]", _border("intake_pressure", 1e-5, True), "2", 2.4, 2.6
+            "greatest stable pressure, of up to 2.5 [bar]",
+            _border("intake_pressure", 1e-5, True),
+            "2",
+            2.4,
+            2.6,
         ),
         Claim(
             "change of the power density [%]", _change("power_density"), "increases", 50.0, 400.0
@@ -162,7 +166,13 @@ SWEEPS = (
         77,
         "Sweep of the spring stiffness",
         "Power density loses most, as printed; ours is stable below 50 kN/m too.",
-        Claim("least stable stiffness [kN/m]", _border("spring_stiffness", 1e-3), "50", 4.9, 5.1),
+        Claim(
+            "least stable stiffness, of 5 on [kN/m]",
+            _border("spring_stiffness", 1e-3),
+            "50",
+            4.9,
+            5.1,
+        ),
         Claim("change of the power density [%]", _change("power_density"), "most", -90.0, -50.0),
         Claim("change of the efficiency [%]", _change("efficiency"), "small losses", -15.0, 0.0),
     ),
@@ -219,8 +229,8 @@ OPTIMISATION = (
     Shown(
         (88,),
         "Design map: stroke to bore, frequency, power density",
-        "Good designs are those with the limits on the ratio; where the search ends depends on it "
-        "([optimisation](optimisation.md)).",
+        "Good designs have a low ratio and about the printed frequency; of the second zone of the "
+        "print see [optimisation](optimisation.md).",
         (Claim("frequency of the best [Hz]", _best("frequency"), "60", 40.0, 90.0),),
     ),
     Shown(

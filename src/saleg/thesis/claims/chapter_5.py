@@ -205,7 +205,7 @@ SHOWN = (
     Shown(
         (107,),
         "Overload until misfire",
-        "It misfires near the printed time, with a late ignition after it.",
+        "It misfires near the printed time; late ignitions follow, more than the one of the text.",
         (
             near("first misfire [s]", lambda run: control.first_misfire(run), 3, 0.1),
             Claim(
