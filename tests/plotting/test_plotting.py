@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
 import saleg
 from helpers import ROOT
@@ -239,6 +240,14 @@ def test_sankey_is_the_energy_balance(base_run):
         assert f"{100.0 * joules / energy.fuel:.1f} %" in texts(ax)
     assert "no term of the balance" in texts(ax)
     assert plotting.energy_balance is plotting.energy_sankey
+
+
+@pytest.mark.parametrize("name", ["energy_pie", "energy_sankey", "energy_balance"])
+def test_steady_state_draws_its_energy(base, name):
+    steady = saleg.steady_state(base)
+    figure = getattr(steady.plot, name)().figure
+    words = " ".join(text.get_text() for text in figure.findobj(Text))
+    assert f"{100.0 * steady.performance.efficiency:.1f}" in words
 
 
 def test_sankey_of_an_unsteady_cycle_shows_what_joins(unsteady):

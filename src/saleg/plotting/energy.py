@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from saleg.plotting.cycle import NoCycle, titled
+from saleg.plotting.cycle import NoCycle, is_orbit, titled
 from saleg.plotting.docstrings import documented
 from saleg.plotting.overlay import sign
 from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
+from saleg.simulation.performance import EnergyBalance
+from saleg.simulation.run import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.plotting.figure import ShownAxes
-    from saleg.simulation.performance import EnergyBalance
-    from saleg.simulation.run import Run
     from saleg.steady.solver import SteadyState
 
 #: Share of the fuel energy below which a flow is not drawn.
@@ -70,6 +70,8 @@ def balance_of(run: Run | SteadyState) -> EnergyBalance:
         If there is none, or if it does not close.
     """
     balance = run.energy
+    if balance is None and isinstance(run, Run) and is_orbit(run):  # it ends as it began
+        balance = EnergyBalance.between(run.strokes[-1], run.strokes)
     if balance is None:
         reason = "needs a full cycle and a stroke before it"
         raise NoCycle(f"no energy balance to draw: it {reason} ({run.message})")
