@@ -51,6 +51,7 @@ lengths = {
     "half_stroke": st.floats(0.01, 1.0),
     "head_gap": st.floats(1e-6, 1e-3),
     "port_closing": st.floats(2e-3, 0.019),
+    "back_area": st.floats(1e-6, 1e-2),  # with which any pressure may act
 }
 exchange = st.one_of(
     instances(saleg.laws.InstantExchange),
@@ -60,7 +61,7 @@ plenum = st.just(saleg.laws.Plenum())  # a crankcase has to fit: tests/breathing
 chambers = st.one_of(
     instances(Cylinder, **lengths, gas_exchange=exchange, supply=plenum),
     *(
-        instances(kind, half_stroke=lengths["half_stroke"], head_gap=lengths["head_gap"])
+        instances(kind, **{key: lengths[key] for key in ("half_stroke", "head_gap", "back_area")})
         for kind in (SealedCylinder, BounceChamber)
     ),
 )

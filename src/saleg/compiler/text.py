@@ -11,8 +11,10 @@ import ast
 import hashlib
 import inspect
 import pkgutil
-from collections.abc import Sequence
-from typing import Any
+import threading
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
 
 from saleg.compiler.imported_text import NoSource
 from saleg.compiler.module import without_source
@@ -25,6 +27,9 @@ from saleg.errors import LawError
 from saleg.laws import Law
 from saleg.laws.base import CHAMBER_SLOTS
 from saleg.laws.contract import plain_function
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 #: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
 BEFORE_SLOTS = (
@@ -120,6 +125,23 @@ STEPS_OF_LANES = ("compiler/run_at.py", "kernel/lanes/group.py", "compiler/lanes
 CACHED = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)\n'
 
 
+#: Held by whoever reads or writes syntax trees: Python 3.11 counts how deep it is in them for all
+#: threads together, and fails with "AST constructor recursion depth mismatch".
+SYNTAX = threading.RLock()
+
+
+def one_at_a_time(function: Callable[P, T]) -> Callable[P, T]:
+    """Make threads that call a function wait for each other."""
+
+    @wraps(function)
+    def call(*args: P.args, **given: P.kwargs) -> T:
+        with SYNTAX:
+            return function(*args, **given)
+
+    return call
+
+
+@one_at_a_time
 def compose(
     classes: Sequence[type[Law]],
     modules: Sequence[str] = INTEGRATOR,
@@ -184,6 +206,7 @@ def _kernel_text(name: str, needs: Needs, width: int) -> str:
     return f"# --- kernel/{name}.py\n{written}"
 
 
+@one_at_a_time
 def compose_search() -> str:
     """Text of the return map and the search for its fixed points, which use no law."""
     return _joined([*_header(), *map(own_text, SEARCH)])
@@ -264,6 +287,7 @@ def {name}_constants(self, gas, charge):
 """
 
 
+@one_at_a_time
 def methods_text(
     law: type[Law],
     method: str,

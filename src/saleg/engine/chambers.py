@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from saleg.laws import (
     CFRIgnition,
@@ -189,7 +189,8 @@ class GasChamber(Chamber):
     back_pressure: float = quantity("Pa", default=0.0, low=0)
     leak: Leak = field(default_factory=NoLeak)
     wall: Wall = field(default_factory=FixedWall)
-    gas_properties: GasProperties = field(default_factory=ChangGas)
+    if TYPE_CHECKING:  # declared where files have it
+        gas_properties: GasProperties = field(default_factory=ChangGas)
 
     @property
     def area(self) -> float:
@@ -246,6 +247,7 @@ class CombustionChamber(GasChamber):
     combustion_efficiency: float = quantity("-", default=0.95, low=0, high=1)
     late_ignition: float = quantity("-", default=0.0, low=0, high=1)
     fuel: Fuel = field(default_factory=Fuel)
+    gas_properties: GasProperties = field(default_factory=ChangGas)
     heat_transfer: HeatTransfer = field(default_factory=Hohenberg)
     heat_release: HeatRelease = field(default_factory=Wiebe)
     ignition: Ignition = field(default_factory=CFRIgnition)
@@ -319,6 +321,7 @@ class BounceChamber(GasChamber):
 
     pressure: float = quantity("Pa", default=1e5, low=0, open_low=True, usual=PRESSURE)
     temperature: float = quantity("K", default=300.0, low=100.0, high=1500.0, usual=TEMPERATURE)
+    gas_properties: GasProperties = field(default_factory=ChangGas)
     heat_transfer: HeatTransfer = field(default_factory=NoHeatTransfer)
 
     @property

@@ -38,6 +38,9 @@ SLOTS: dict[str, type] = {**CHAMBER_SLOTS, **ENGINE_SLOTS, "start": Start}
 BASES = (*SLOTS.values(), FlowExchange)
 #: Laws a file does not name: what stands in their slots if nothing is said.
 UNSAID = (NoLeak, FixedWall, Plenum)
+#: Numbers that came later: a file names them only where they are not the default, so that folders
+#: of sweeps begun before still know their engine.
+LATER = ("back_area", "back_pressure", "burnt_shares")
 CHAMBERS: dict[str, type] = {
     kind.__name__: kind for kind in (Cylinder, SealedCylinder, BounceChamber, OpenEnd)
 }
@@ -174,7 +177,7 @@ def _table(path: str, node: Any) -> list[str]:
         lines.append(f"{word} = {_quoted(type(node).__name__)}")
     for item in dataclasses.fields(node):
         value = getattr(node, item.name)
-        if type(value) in UNSAID:
+        if type(value) in UNSAID or (item.name in LATER and value == item.default):
             continue
         if dataclasses.is_dataclass(value):
             below += _table(f"{path}.{item.name}", value)
