@@ -55,7 +55,7 @@ def test_rows_are_those_of_designs_solved_alone():
         saleg.design.evaluate_many(table, effort=Effort.QUICK),
         alone(table, Effort.QUICK, Design()),
     )
-    found = solved_together(Design(), table.to_dict("records"), 1e-6, Effort.QUICK)
+    found = solved_together(Design(), table.to_dict("records"), 1e-6, Effort.QUICK, len(table))
     assert sum(len(places) for places, _ in found) >= 8
 
 
@@ -82,7 +82,7 @@ class HeavyPistons:
 def test_designs_with_models_of_the_users_are_solved_one_by_one():
     design = replace(Design(), masses=MassModel(pistons=HeavyPistons()))
     table = pd.DataFrame({"bore": [0.062, 0.064]})
-    assert solved_together(design, table.to_dict("records"), 1e-6, Effort.QUICK) == []
+    assert solved_together(design, table.to_dict("records"), 1e-6, Effort.QUICK, len(table)) == []
     found = saleg.design.evaluate_many(table, design, effort=Effort.QUICK)
     same(found, alone(table, Effort.QUICK, design))
     assert found.pistons_mass.tolist() == pytest.approx([0.31, 0.32])

@@ -124,7 +124,8 @@ def test_cylinder_on_the_right(one_sided):
 
 
 def test_from_rest_towards_equilibrium(one_sided):
-    softer = one_sided.replace(start=AtRest(), **{"springs.stiffness": 0.0, "right.pressure": 2e4})
+    start = CompressedCharge(position=-0.5, burning=0.0)
+    softer = one_sided.replace(start=start, **{"springs.stiffness": 0.0, "right.pressure": 2e4})
     run, check = compare(softer, 0.5)
     assert len(run.strokes) > 5
     assert run.status is Status.STALLED
