@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import saleg
+from agreement import assert_agree
 from breathing_engines import single_piston
 from saleg import laws
 from saleg.kernel import layout
@@ -182,3 +183,44 @@ def test_a_branch_of_a_single_piston_engine_that_breathes(crankcase):
             assert getattr(point.steady.performance, name) == pytest.approx(wanted, rel=1e-6), name
         leading = [abs(found.multipliers[0]) for found in (point.stability, alone.stability)]
         assert leading[0] == pytest.approx(leading[1], abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("base_law", "body", "words"),
+    [
+        (laws.base.Leak, {"area": lambda self, gas: 1e-5}, "area acts on"),
+        (
+            laws.base.Wall,
+            {"temperature_rate": lambda self, temperature, heat: 1.0},
+            "wall_temperature",
+        ),
+        (laws.RingLeak, {"states": ("foo",)}, "there are contents, wall_temperature, crankcase"),
+    ],
+)
+def test_a_law_that_forgets_its_states_is_refused(base, base_law, body, words):
+    kind = dataclasses.dataclass(frozen=True)(type("Forgetful", (base_law,), body))
+    slot = {base_law.slot: kind()}
+    with pytest.raises(saleg.LawError, match=words):
+        saleg.simulate(base.replace(**slot), 0.01)
+
+
+@pytest.mark.parametrize("heat_capacity", [1e3, 3e5])
+def test_walls_of_any_mass_settle_at_one_temperature(base, heat_capacity):
+    """A heavy wall moves less in a cycle than the tolerance, however far it has to go."""
+    wall = laws.LumpedWall(heat_capacity=heat_capacity, conductance=20.0)
+    steady = saleg.steady_state(base.replace(wall=wall, wall_temperature=300.0))
+    assert steady.status == saleg.Status.STEADY
+    assert steady.strokes["wall_temperature"][-1] == pytest.approx([553.4, 553.4], abs=0.3)
+
+
+def test_walls_follow_where_one_end_is_open(base):
+    engine = saleg.Engine(
+        saleg.Translator(mass=5.0),
+        base.left,
+        saleg.OpenEnd(),
+        springs=laws.OneSidedSprings(right_stiffness=60e3, right_contact=-0.03),
+        friction=base.friction,
+        alternator=laws.LinearLoad(load_constant=40.0),
+    ).replace(wall=laws.LumpedWall())
+    run = saleg.simulate(engine, 0.1, rtol=1e-9)
+    assert_agree(run, saleg.reference.simulate(engine, 0.1, jitted=True))

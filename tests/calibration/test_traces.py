@@ -32,14 +32,14 @@ def test_a_file_with_units(tmp_path):
 
 def test_semicolons_and_decimal_commas(tmp_path):
     file = tmp_path / "a.csv"
-    rows = "\n".join(f"{n},5;{n}" for n in range(9))
+    rows = "\n".join(f"{n},5;{n + 1}" for n in range(9))
     file.write_text(f"t [s];p_right [Pa]\n{rows}\n")
     trace = Trace.read(file)
     np.testing.assert_allclose(trace.t, np.arange(9) + 0.5)
     assert trace.channels == ["p_right"]
 
 
-ROWS = "\n".join(f"{n},{n},{n}" for n in range(9))
+ROWS = "\n".join(f"{n},{n},{n + 1}" for n in range(9))
 
 
 @pytest.mark.parametrize(
@@ -70,6 +70,8 @@ def test_arguments_that_are_no_trace():
     t = np.arange(9.0)
     with pytest.raises(TraceError, match="8 values for 9"):
         Trace(t, x=t[1:])
+    with pytest.raises(TraceError, match="p_left: every pressure must be > 0"):
+        Trace(t, p_left=t)
     with pytest.raises(TraceError, match="must be numbers"):
         Trace(t, x=["a"] * 9)
     with pytest.raises(TraceError, match="noise of 'y'"):

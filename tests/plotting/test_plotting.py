@@ -464,3 +464,12 @@ def test_neither_pyplot_nor_a_display_is_needed():
 def test_the_page_of_figures_names_them_all():
     page = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
     assert all(f"`{name}`" in page for name in FIGURES)
+
+
+def test_one_balance_on_one_axes_and_no_approach_of_a_steady_state(base, base_run):
+    ax = plotting.energy_sankey(base_run)
+    for draw in (plotting.energy_sankey, plotting.energy_pie):
+        with pytest.raises(saleg.errors.AxesError, match="shows one run"):
+            draw(base_run, ax)
+    with pytest.raises(NoCycle, match="no approach"):
+        saleg.steady_state(base).plot.approach_to_steady_state()

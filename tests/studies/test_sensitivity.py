@@ -477,3 +477,11 @@ def test_nothing_to_draw_is_said(base):
     stalled = sensitivity.study(base, "ignition.b", [5e3])
     with pytest.raises(saleg.plotting.NoCycle, match="no run of the study"):
         figures.pressure_volume(stalled)
+
+
+def test_elasticities_name_what_is_wrong():
+    base = saleg.machines.thesis_base()
+    with pytest.raises(saleg.InvalidEngine, match="bore = nan"):
+        saleg.studies.elasticities(base.replace(bore=float("nan")))
+    with pytest.raises(saleg.UnknownPath, match=r"(?s)no 'foo'.*no 'bar'"):
+        saleg.studies.elasticities(base, ["foo", "bar"])

@@ -42,6 +42,8 @@ def tell(options: argparse.Namespace) -> bool:
         for path in inputs:
             engine.get(path)
     table = elasticities(engine, inputs, figures, change=options.change)
+    if len(table) and bool(table.isna().all(axis=None)):
+        raise CommandError(f"no steady state to be sensitive: see saleg steady {options.machine}")
     width = max(map(len, map(str, table.index)), default=0)
     print(f"{'% per %':<{width}}  {'  '.join(map(str, table.columns))}")
     for path, row in zip(table.index, table.to_numpy(dtype=float), strict=True):

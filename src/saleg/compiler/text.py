@@ -320,6 +320,7 @@ def _arguments(base: type[Law], method: str) -> list[str]:
     return list(inspect.signature(getattr(base, method)).parameters)[1:]
 
 
+@one_at_a_time
 def own_text(name: str) -> str:
     """Text of one of our modules without its docstring and its imports from this package."""
     text = (pkgutil.get_data("saleg", name) or b"").decode("utf-8").replace("\r\n", "\n")

@@ -11,6 +11,18 @@ from typing import Any
 
 from saleg.errors import LawError
 from saleg.laws.base import GasProperties, Law
+from saleg.laws.leaks import NoLeak
+from saleg.laws.supply import Plenum
+from saleg.laws.walls import FixedWall
+
+#: States a law may ask for.
+STATES = ("contents", "wall_temperature", "crankcase")
+#: Laws that ask for none, the method by which others change a state, and that state.
+NEEDED: tuple[tuple[type[Law], str, str], ...] = (
+    (NoLeak, "area", "contents"),
+    (FixedWall, "temperature_rate", "wall_temperature"),
+    (Plenum, "volume", "crankcase"),
+)
 
 
 def check_laws(laws: Iterable[Law]) -> None:
@@ -41,6 +53,7 @@ def check_law(law: type[Law]) -> None:
         names = {item.name for item in dataclasses.fields(law)}
         if "gas_constant" not in names:
             raise LawError(f"{law.__name__} needs a field 'gas_constant' [J/kg/K]")
+    _check_states(law)
     bases = [base for base in law.__mro__ if "slot" in vars(base)]
     for name in law.compiled:
         method = getattr(law, name)
@@ -51,6 +64,21 @@ def check_law(law: type[Law]) -> None:
         for parameter in inspect.signature(function, follow_wrapped=False).parameters.values():
             if parameter.kind not in plain:
                 raise LawError(f"{law.__name__}.{name}: '{parameter}' must be a plain argument")
+
+
+def _check_states(law: type[Law]) -> None:
+    """Refuse a law that asks for no state there is, or lets gas or heat pass without a state."""
+    unknown = [name for name in law.states if name not in STATES]
+    if unknown:
+        known = ", ".join(STATES)
+        raise LawError(f"{law.__name__}.states = {law.states!r}: there are {known}")
+    for idle, method, state in NEEDED:
+        own = getattr(law, method, None)
+        if law.slot == idle.slot and own is not getattr(idle, method) and state not in law.states:
+            raise LawError(
+                f"{law.__name__}.{method} acts on a state of the chamber, which the law has to ask "
+                f'for: states: ClassVar = ("{state}",)'
+            )
 
 
 def plain_function(method: Any, owner: str) -> types.FunctionType:

@@ -131,7 +131,7 @@ class PreloadedSprings(Springs):
 class OneSidedSprings(Springs):
     """A spring at either end that only pushes, from the position on at which it touches.
 
-    ``F = k_l max(x_l - x, 0) - k_r max(x - x_r, 0)``; one alone has the other's stiffness 0.
+    ``F = k_l max(x_l - x, 0) - k_r max(x - x_r, 0)``; one alone leaves the other's stiffness at 0.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ class OneSidedSprings(Springs):
     """
 
     left_stiffness: float = quantity("N/m", default=0.0, low=0, usual=STIFFNESS)
-    right_stiffness: float = quantity("N/m", default=30e3, low=0, usual=STIFFNESS)
+    right_stiffness: float = quantity("N/m", default=0.0, low=0, usual=STIFFNESS)
     left_contact: float = quantity("m", default=0.0)
     right_contact: float = quantity("m", default=0.0)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from saleg.errors import AxesError
 from saleg.plotting.cycle import NoCycle, is_orbit, titled
 from saleg.plotting.docstrings import documented
 from saleg.plotting.overlay import sign
@@ -97,6 +98,17 @@ def joules(energy: float) -> str:
     return f"{energy:.0f} J" if abs(energy) >= 100.0 else f"{energy:.3g} J"
 
 
+def alone(ax: Axes) -> None:
+    """Refuse axes on which something stands already: a balance shows one run.
+
+    Raises
+    ------
+    AxesError
+    """
+    if ax.patches or ax.texts:
+        raise AxesError("an energy balance shows one run: draw the other on axes of its own")
+
+
 def named(title: str, label: str | None) -> str:
     """Title of a figure that shows one run alone, with the name of the run."""
     return f"{label}: {title[0].lower()}{title[1:]}" if label else title
@@ -122,6 +134,7 @@ def energy_pie(run: Run, ax: Axes | None = None, *, label: str | None = None) ->
             "the engine runs steadily"
         )
     ax = axes_or_new(ax, 6.0, 4.0)
+    alone(ax)
     wedges = ax.pie(
         list(flows.values()),
         colors=[FLOW_COLOURS[name] for name in flows],

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.plotting.cycle import NoCycle, last_cycle, title_of
+from saleg.plotting.cycle import NoCycle, is_orbit, last_cycle, title_of
 from saleg.plotting.docstrings import documented
 from saleg.plotting.gas import pressure_position
 from saleg.plotting.labels import label as label_of
@@ -65,6 +65,8 @@ def approach_to_steady_state(
     once all is settled is left out.
     """
     cycles = run.cycles
+    if is_orbit(run):
+        raise NoCycle("a steady state has no approach to draw: simulate the engine")
     if len(cycles) == 0:
         raise NoCycle(f"nothing to draw: the run completed no full cycle ({run.message})")
     panels = panels_or_new(ax, (2, 2), 9.0, 5.4)

@@ -10,6 +10,7 @@ from saleg.plotting.docstrings import documented
 from saleg.plotting.energy import (
     FLOW_COLOURS,
     VISIBLE,
+    alone,
     balance_of,
     joules,
     named,
@@ -61,6 +62,7 @@ def energy_sankey(run: Run, ax: Axes | None = None, *, label: str | None = None)
     if min(delivered) < -VISIBLE * balance.fuel:
         raise NoCycle("no Sankey diagram to draw: the alternator drove the engine in this cycle")
     ax = axes_or_new(ax, 8.6, 4.6)
+    alone(ax)
     lowest, highest = _Diagram(ax, balance).draw(_nodes(balance))
     adverse = run.performance.adverse_work
     if math.isfinite(adverse) and adverse > 0.0:

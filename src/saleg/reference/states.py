@@ -167,7 +167,11 @@ def _open_end(end: OpenEnd, area: float, sign: float) -> ChamberState:
     state.sign, state.area, state.half_stroke = sign, area, end.half_stroke
     state.mode, state.intake_pressure = layout.OPEN, end.pressure
     state.intake_temperature = end.reference_state.temperature
-    state.mass = state.mass_lit = state.gas_constant = 1.0  # divided by, never used
+    state.p_closing, state.T_closing = end.pressure, state.intake_temperature
+    state.wall_temperature = state.intake_temperature
+    state.mass = state.mass_lit = state.gas_constant = state.V_closing = (
+        1.0  # divided by, never used
+    )
     return state
 
 

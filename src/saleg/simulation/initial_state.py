@@ -268,6 +268,7 @@ def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
     c.port = full.clearance if isinstance(chamber, Cylinder) else math.inf
     if isinstance(chamber, OpenEnd):
         c.port = 0.0  # it never closes
+        c.wall_temperature = full.temperature  # by which a state nobody looks at is scaled
     c.breathes = float("contents" in chamber.states)
     if isinstance(chamber, Cylinder):
         c.by_flow = float("contents" in chamber.gas_exchange.states)

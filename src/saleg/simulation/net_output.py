@@ -10,7 +10,7 @@ import numpy as np
 from saleg.engine import Cylinder, Engine
 from saleg.errors import InvalidEngine
 from saleg.laws.usual import GAS_PRESSURE
-from saleg.quantities import Quantities, problems, quantity
+from saleg.quantities import Problem, Quantities, problems, quantity
 from saleg.simulation.indicators import both
 
 
@@ -87,7 +87,10 @@ def net_output_of(
         If a number of the auxiliaries is out of range.
     """
     beside = Auxiliaries() if auxiliaries is None else auxiliaries
-    wrong = problems(beside, "auxiliaries")
+    if isinstance(beside, Auxiliaries):
+        wrong = problems(beside, "auxiliaries")
+    else:
+        wrong = [Problem("auxiliaries", beside, "-", "must be saleg.Auxiliaries")]
     if wrong:
         raise InvalidEngine(wrong)
     if cycle is None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from saleg.batch.many import steady_states
 from saleg.checks import TEXT, a, checked, each, number
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.errors import UnknownPath
 from saleg.quantities import as_float
 from saleg.steady.solver import DEFAULT_TOLERANCE
@@ -70,7 +70,8 @@ def elasticities(
     ----------
     engine : Engine
     inputs : sequence of str
-        Paths of numbers. Those the engine does not have or that are 0 are left out.
+        Paths of numbers. Those that are 0 are left out, and of the usual ones those that the engine
+        does not have.
     figures : sequence of str
         Names of :class:`saleg.Performance`.
     change : float
@@ -85,6 +86,13 @@ def elasticities(
         is not defined. What :func:`saleg.steady_states` leaves out, the adverse work, is no
         column.
 
+    Raises
+    ------
+    InvalidEngine
+        Naming every wrong field of the engine.
+    UnknownPath
+        Naming every input asked for that the engine does not have.
+
     Examples
     --------
     >>> import saleg
@@ -94,6 +102,9 @@ def elasticities(
     """
     import pandas as pd
 
+    check_engine(engine)
+    if inputs is not MAIN_INPUTS:
+        _refuse_unknown(engine, inputs)
     changed = {path: pair for path in inputs if (pair := _pair(engine, path, change)) is not None}
     engines = [engine, *(one for pair in changed.values() for one in pair)]
     solved = steady_states(engines, rtol=rtol)
@@ -106,6 +117,19 @@ def elasticities(
     table = pd.DataFrame(rows, index=pd.Index(list(changed), name="input"), columns=names)
     table.attrs["units"] = dict.fromkeys(names, "-")
     return table
+
+
+def _refuse_unknown(engine: Engine, inputs: Sequence[str]) -> None:
+    """Raise one error naming every path that leads nowhere, on no side."""
+    wrong = []
+    for path in inputs:
+        try:
+            engine.get(path)
+        except UnknownPath as error:
+            if not dict(_numbers(engine, path)):
+                wrong.append(str(error))
+    if wrong:
+        raise UnknownPath("\n".join(wrong))
 
 
 def _pair(engine: Engine, path: str, change: float) -> tuple[Engine, Engine] | None:
