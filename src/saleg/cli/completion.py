@@ -37,9 +37,9 @@ def _actions(parser: argparse.ArgumentParser) -> Iterable[argparse.Action]:
 def _machines(prefix: str, **_: Any) -> list[str]:
     from argcomplete.completers import FilesCompleter
 
-    from saleg.machines import CATALOGUE
+    from saleg.machines import catalogue
 
-    return [*CATALOGUE, *FilesCompleter(("toml", "npz"))(prefix)]
+    return [*catalogue(), *FilesCompleter(("toml", "npz"))(prefix)]
 
 
 def _changes(parsed_args: argparse.Namespace, **_: Any) -> list[str]:

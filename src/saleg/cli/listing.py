@@ -10,7 +10,7 @@ from saleg.cli.parameters import table_of
 from saleg.cli.run import load
 from saleg.cli.words import CommandError
 from saleg.engine.toml import laws_by_slot
-from saleg.machines import CATALOGUE
+from saleg.machines import catalogue
 
 #: The machine whose parameters are listed unless another is named.
 DEFAULT = "thesis-base"
@@ -36,7 +36,7 @@ def show(options: argparse.Namespace) -> bool:
     if options.machine is not None and options.what != "parameters":
         raise CommandError(f"saleg list {options.what} takes no machine")
     if options.what == "machines":
-        _print_aligned({name: _summary(machine) for name, machine in CATALOGUE.items()}, "")
+        _print_aligned({name: _summary(machine) for name, machine in catalogue().items()}, "")
         return True
     if options.what == "parameters":
         print(table_of(load(options.machine or DEFAULT)))

@@ -10,7 +10,7 @@ from saleg.cli.run import add_changes, changed, load
 from saleg.cli.words import CommandError
 from saleg.files.atomic import new_folder
 from saleg.files.reading import expanded
-from saleg.machines import CATALOGUE
+from saleg.machines import catalogue
 from saleg.simulation.run import Run
 from saleg.steady.solver import steady_state
 
@@ -50,7 +50,7 @@ def write(options: argparse.Namespace) -> bool:
 
 def _result(name: str, changes: list[str]) -> Run | SteadyState:
     """Steady state of an engine, or how it runs without one; or a run that was saved."""
-    if name in CATALOGUE or name.endswith(".toml") or not Path(name).exists():
+    if name in catalogue() or name.endswith(".toml") or not Path(name).exists():
         found = steady_state(changed(load(name), changes))
         return found if found.found or found.fallback is None else found.fallback
     if changes:

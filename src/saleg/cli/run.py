@@ -16,7 +16,7 @@ from saleg.errors import UnknownPath, nearest
 from saleg.export.formats import check
 from saleg.files.reading import expanded
 from saleg.files.units import UnitError, number_in_si
-from saleg.machines import CATALOGUE
+from saleg.machines import catalogue
 from saleg.simulation.integration import simulate
 from saleg.simulation.run import Run
 
@@ -82,11 +82,11 @@ def run(options: argparse.Namespace) -> bool:
 
 def load(name: str) -> Engine:
     """Engine of the catalogue, or from a file."""
-    if name in CATALOGUE:
-        return CATALOGUE[name]()
+    if name in catalogue():
+        return catalogue()[name]()
     if name.endswith(".toml") or Path(name).is_file():
         return read_toml(name)
-    hint = nearest(name, CATALOGUE) or f"; there are {', '.join(CATALOGUE)}"
+    hint = nearest(name, catalogue()) or f"; there are {', '.join(catalogue())}"
     raise CommandError(f"no machine '{name}'{hint} (the name of an engine file ends in .toml)")
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from saleg.design.designs import Design
 from saleg.engine import Engine
 from saleg.errors import SalegError, nearest
-from saleg.machines import CATALOGUE
+from saleg.machines import catalogue
 from saleg.quantities import is_number
 
 
@@ -21,9 +21,9 @@ def base_of(settings: Mapping[str, Any]) -> Design | Engine:
     if "machine" not in settings:
         return Design()
     name = settings["machine"]
-    if not isinstance(name, str) or name not in CATALOGUE:
-        raise WrongTable(f"no machine {name!r}{nearest(str(name), CATALOGUE)}")
-    return CATALOGUE[name]()
+    if not isinstance(name, str) or name not in catalogue():
+        raise WrongTable(f"no machine {name!r}{nearest(str(name), catalogue())}")
+    return catalogue()[name]()
 
 
 def with_fixed(base: Design | Engine, fixed: Mapping[str, float]) -> Design | Engine:

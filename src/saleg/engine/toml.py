@@ -1,7 +1,7 @@
 """Engines as TOML files: a small writer, and a reader that names every wrong key at once.
 
 Only numbers and text are ever read; a law is looked up by name among those of :mod:`saleg.laws`,
-:mod:`saleg.engine.start` and those handed in, never imported.
+:mod:`saleg.engine.start`, those installed packages offer and those handed in; a file imports none.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from saleg.engine.chambers import (
 from saleg.engine.engine import Engine
 from saleg.engine.start import Start
 from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest, shown
+from saleg.files.entry_points import offered
 from saleg.files.reading import read_text
 from saleg.laws import FixedWall, NoLeak, Plenum
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, FlowExchange
@@ -71,7 +72,7 @@ def laws_by_slot(own: Iterable[type] = ()) -> dict[str, dict[str, type]]:
         vars(starts).values()
     )
     found: dict[str, dict[str, type]] = {slot: {} for slot in SLOTS}
-    for law in [*candidates, *own]:
+    for law in [*candidates, *offered("saleg.laws").values(), *own]:
         for slot, base in SLOTS.items():
             if isinstance(law, type) and issubclass(law, base) and law not in BASES:
                 found[slot][law.__name__] = law
