@@ -70,8 +70,8 @@ def test_arguments_that_are_no_trace():
     t = np.arange(9.0)
     with pytest.raises(TraceError, match="8 values for 9"):
         Trace(t, x=t[1:])
-    with pytest.raises(TraceError, match="p_left: every pressure must be > 0"):
-        Trace(t, p_left=t)
+    with pytest.raises(TraceError, match="p_left: pressures must be absolute"):
+        Trace(t, p_left=-t)
     with pytest.raises(TraceError, match="must be numbers"):
         Trace(t, x=["a"] * 9)
     with pytest.raises(TraceError, match="noise of 'y'"):

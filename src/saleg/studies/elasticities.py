@@ -103,7 +103,7 @@ def elasticities(
     import pandas as pd
 
     check_engine(engine)
-    if inputs is not MAIN_INPUTS:
+    if tuple(inputs) != MAIN_INPUTS:
         _refuse_unknown(engine, inputs)
     changed = {path: pair for path in inputs if (pair := _pair(engine, path, change)) is not None}
     engines = [engine, *(one for pair in changed.values() for one in pair)]
