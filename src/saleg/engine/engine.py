@@ -96,8 +96,8 @@ class Engine:
     @property
     def is_mirrored(self) -> bool:
         """Whether both chambers are alike."""
-        try:
-            return bool(self.left == self.right)
+        try:  # from Python 3.13 on a part with a NaN is no longer equal to itself
+            return self.left is self.right or bool(self.left == self.right)
         except Exception:  # arrays and the like where numbers should be: `problems` names them
             return False
 
