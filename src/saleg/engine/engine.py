@@ -96,8 +96,8 @@ class Engine:
     @property
     def is_mirrored(self) -> bool:
         """Whether both chambers are alike."""
-        try:  # from Python 3.13 on a part with a NaN is no longer equal to itself
-            return self.left is self.right or bool(self.left == self.right)
+        try:
+            return _alike(self.left, self.right)
         except Exception:  # arrays and the like where numbers should be: `problems` names them
             return False
 
@@ -324,6 +324,17 @@ def warn_of_unusual(engine: Engine, *, frames: int = 1, **others: Any) -> None:
     if found:
         lines = "\n".join(f"  {problem}" for problem in found)
         warnings.warn(f"unusual for an engine:\n{lines}", SalegWarning, stacklevel=2 + frames)
+
+
+def _alike(one: Any, other: Any) -> bool:
+    """Whether two parts are equal; with the same NaN in them ``==`` fails from Python 3.13 on."""
+    if one is other or bool(one == other):
+        return True
+    if type(one) is not type(other) or not is_dataclass(one):
+        return False
+    kind: Any = type(one)
+    names = [item.name for item in fields_of(kind)]
+    return all(_alike(getattr(one, name), getattr(other, name)) for name in names)
 
 
 _CHAMBER_PARTS: dict[str, type] = {**CHAMBER_SLOTS, "intake": Intake, "fuel": Fuel}
