@@ -30,8 +30,9 @@ def add_to(commands: Any) -> None:
 def tell(options: argparse.Namespace) -> bool:
     """Solve, print and write; returns whether every elasticity is known."""
     from saleg.batch.many import NOT_IN_ROWS
+    from saleg.engine.paths import MAIN_INPUTS
     from saleg.simulation.performance import UNITS
-    from saleg.studies.elasticities import MAIN_FIGURES, MAIN_INPUTS, elasticities
+    from saleg.studies.elasticities import MAIN_FIGURES, elasticities
 
     engine = changed(load(options.machine), options.changes)
     inputs, figures = _words(options.inputs, MAIN_INPUTS), _words(options.figures, MAIN_FIGURES)

@@ -7,30 +7,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from saleg.engine import Engine
-from saleg.engine.paths import unit_of
+from saleg.engine.paths import MAIN_INPUTS, unit_of
 from saleg.errors import UnknownPath
 from saleg.quantities import is_number
 from saleg.simulation.readable import readable
 
 #: 0 degrees Celsius [K].
 FREEZING = 273.15
-#: What is shown of an engine, by path; a chamber may lack some.
-INPUTS = (
-    "bore",
-    "half_stroke",
-    "port_closing",
-    "moving_mass",
-    "spring.stiffness",
-    "intake.pressure",
-    "intake.temperature",
-    "pressure",
-    "temperature",
-    "equivalence_ratio",
-    "egr",
-    "wall_temperature",
-    "friction.coefficient",
-    "alternator.load_constant",
-)
 _WORDS = {
     "half_stroke": "crown to head at the midpoint",
     "port_closing": "clearance at port closing",
@@ -66,7 +49,7 @@ def shown(name: str, unit: str, value: float) -> tuple[str, str, str]:
 
 def inputs(engine: Engine) -> Iterator[tuple[str, str, str]]:
     """Name, number and unit of the inputs of an engine; of both sides where they differ."""
-    for path in INPUTS:
+    for path in MAIN_INPUTS:
         found = [_at(engine, name) for name in (path, f"left.{path}", f"right.{path}")]
         both, sides = found[0], [value for value in found[1:] if value is not None]
         values = sides if len(set(sides)) > 1 else [both]

@@ -21,6 +21,24 @@ CHAMBER_ALIASES = {
     "egr": "gas_exchange.egr",
 }
 
+#: What is told of an engine first, by path; a chamber may lack some.
+MAIN_INPUTS = (
+    "bore",
+    "half_stroke",
+    "port_closing",
+    "moving_mass",
+    "spring.stiffness",
+    "intake.pressure",
+    "intake.temperature",
+    "pressure",
+    "temperature",
+    "equivalence_ratio",
+    "egr",
+    "wall_temperature",
+    "friction.coefficient",
+    "alternator.load_constant",
+)
+
 
 def get(engine: Any, path: str) -> Any:
     """Value at a dotted path; of a mirrored engine's cylinder, the left one's.

@@ -1,5 +1,6 @@
 """Studies: what changes with a numerical setting, or with one number or law of an engine."""
 
+from saleg.engine.paths import MAIN_INPUTS
 from saleg.studies import sensitivity
 from saleg.studies.comparison import compare
 from saleg.studies.convergence import (
@@ -17,7 +18,7 @@ from saleg.studies.convergence import (
     tolerance_study,
     work_precision,
 )
-from saleg.studies.elasticities import MAIN_FIGURES, MAIN_INPUTS, elasticities
+from saleg.studies.elasticities import MAIN_FIGURES, elasticities
 from saleg.studies.printed import beside_thesis
 
 __all__ = [

@@ -10,6 +10,7 @@ import numpy as np
 from saleg.batch.many import steady_states
 from saleg.checks import TEXT, a, checked, each, number
 from saleg.engine import Engine, check_engine
+from saleg.engine.paths import MAIN_INPUTS
 from saleg.errors import UnknownPath
 from saleg.quantities import as_float
 from saleg.steady.solver import DEFAULT_TOLERANCE
@@ -17,23 +18,6 @@ from saleg.steady.solver import DEFAULT_TOLERANCE
 if TYPE_CHECKING:
     import pandas as pd
 
-#: Inputs that are varied unless others are given; those an engine lacks are left out.
-MAIN_INPUTS = (
-    "bore",
-    "half_stroke",
-    "port_closing",
-    "moving_mass",
-    "spring.stiffness",
-    "intake.pressure",
-    "intake.temperature",
-    "pressure",
-    "temperature",
-    "equivalence_ratio",
-    "egr",
-    "wall_temperature",
-    "friction.coefficient",
-    "alternator.load_constant",
-)
 #: Figures whose change is told unless others are given.
 MAIN_FIGURES = (
     "power",
