@@ -8,6 +8,8 @@ import time
 
 import pytest
 
+from saleg.compiler import machine_code
+from saleg.compiler.kernel import Kernel
 from saleg.files.atomic import new_file, new_folder
 from saleg.files.signals import ending_in_order, held_off
 
@@ -74,3 +76,23 @@ def test_a_terminated_command_leaves_nothing(tmp_path):
     process.terminate()
     assert process.wait(60.0) == 128 + signal.SIGTERM
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_kernel_is_compiled_to_its_end_before_sigterm_ends_the_process(monkeypatch):
+    """Within the compiler's callbacks the exit would be swallowed, and the command run on."""
+    done = []
+
+    def compile_for(function, kinds):
+        signal.raise_signal(signal.SIGTERM)
+        done.append(True)
+
+    kernel = object.__new__(Kernel)
+    kernel._kept, kernel._laws = None, []
+    monkeypatch.setattr(Kernel, "function", lambda *_: None)
+    monkeypatch.setattr(machine_code, "types_of", lambda _: ())
+    monkeypatch.setattr(machine_code, "is_compiled", lambda *_: False)
+    monkeypatch.setattr(machine_code, "compile_for", compile_for)
+    with pytest.raises(SystemExit) as left, ending_in_order():
+        kernel._compiled("run_on", ())
+    assert left.value.code == 128 + signal.SIGTERM
+    assert done == [True]

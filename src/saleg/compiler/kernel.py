@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import signal
 import types
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
@@ -13,6 +14,7 @@ from saleg.compiler.cache import Kept
 from saleg.compiler.diagnosis import Kind, diagnosed
 from saleg.errors import LawError
 from saleg.files.lock import locked
+from saleg.files.signals import held_off
 
 log = logging.getLogger(__name__)
 #: What is logged before something is compiled that is not on disk.
@@ -71,7 +73,9 @@ class Kernel:
         """An entry point, compiled for arguments of these types, and the types."""
         function, kinds = self.function(name), machine_code.types_of(arguments)
         if not machine_code.is_compiled(function, kinds):
-            with locked(self._kept.lock) if self._kept else nullcontext():
+            # The compiler calls back into Python and swallows the exit that SIGTERM asks for there.
+            held = held_off(signal.SIGTERM)
+            with held, locked(self._kept.lock) if self._kept else nullcontext():
                 self._compile(function, kinds)
         return function, kinds
 

@@ -23,11 +23,11 @@ def ending_in_order() -> Iterator[None]:
 
 
 @contextmanager
-def held_off() -> Iterator[None]:
-    """Hold off Ctrl-C and SIGTERM for a moment; they come afterwards."""
+def held_off(*numbers: signal.Signals) -> Iterator[None]:
+    """Hold off signals for a moment, Ctrl-C and SIGTERM unless named; they come afterwards."""
     came: list[int] = []
-    numbers = (signal.SIGINT, signal.SIGTERM) if _in_main_thread() else ()
-    before = {held: signal.signal(held, lambda number, _: came.append(number)) for held in numbers}
+    wanted = (numbers or (signal.SIGINT, signal.SIGTERM)) if _in_main_thread() else ()
+    before = {held: signal.signal(held, lambda number, _: came.append(number)) for held in wanted}
     try:
         yield
     finally:
