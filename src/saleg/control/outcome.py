@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from saleg.control.sensors import measured
 from saleg.engine.controller import Controller
 from saleg.kernel import layout
 from saleg.kernel.decide import with_motoring
@@ -15,6 +14,7 @@ from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS, StateLogic
 from saleg.simulation.course import Course
 from saleg.simulation.outcome import outcome_of, settled
+from saleg.simulation.signals import measured
 from saleg.status import Status
 
 #: Which part of a controller gives each command.

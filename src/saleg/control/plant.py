@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from saleg.control.outcome import blamed, controlled_outcome, fault_message
-from saleg.control.sensors import measured
 from saleg.engine import Engine, check_controller, check_engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
@@ -24,6 +23,7 @@ from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.run import Run
 from saleg.simulation.settings import Settings, SettingsError
+from saleg.simulation.signals import measured
 
 #: Strokes whose commands are remembered: the last full cycle is among them.
 LOGGED = 8

@@ -15,7 +15,7 @@ from saleg.checks import NUMBER, a, checked
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
 from saleg.control.plant import InPython, Plant, course_of, give, plant_course
-from saleg.control.sensors import Measurement, Sensors, measured
+from saleg.control.sensors import Measurement, Sensors
 from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError, shown
@@ -26,6 +26,7 @@ from saleg.quantities import as_float, unusual
 from saleg.simulation.indicators import beyond_ports
 from saleg.simulation.run import Run
 from saleg.simulation.settings import SettingsError
+from saleg.simulation.signals import measured
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor

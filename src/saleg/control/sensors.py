@@ -10,13 +10,10 @@ import numpy as np
 
 from saleg.engine import Engine
 from saleg.errors import InvalidController
-from saleg.kernel import layout
-from saleg.kernel.control import write_signals
 from saleg.laws.arguments import Signals, Stroke
 from saleg.laws.usual import GAP
 from saleg.quantities import Quantities, problems, quantity
 from saleg.simulation.indicators import compression_ratio, own_compression_ratio
-from saleg.simulation.initial_state import State
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,10 +142,3 @@ def _rounded(value: float, step: float) -> float:
     """The nearest multiple of a step; the value itself if there is none, or none to speak of."""
     steps = value / step if step > 0.0 else math.inf
     return step * round(steps) if math.isfinite(steps) else float(value)
-
-
-def measured(state: State) -> Signals:
-    """Signals at a state."""
-    values = np.zeros(1, layout.SIGNALS_RECORD).view(np.recarray)
-    write_signals(*state.records, values[0])
-    return Signals(*values[0].tolist())

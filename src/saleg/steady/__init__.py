@@ -1,6 +1,15 @@
 """Steady states: fixed points of the return map, their stability and their branches."""
 
 from saleg.steady import continuation
+from saleg.steady.linear import LinearModel, NoLinearModel
 from saleg.steady.solver import Effort, NoSteadyState, SteadyState, steady_state
 
-__all__ = ["Effort", "NoSteadyState", "SteadyState", "continuation", "steady_state"]
+__all__ = [
+    "Effort",
+    "LinearModel",
+    "NoLinearModel",
+    "NoSteadyState",
+    "SteadyState",
+    "continuation",
+    "steady_state",
+]

@@ -314,6 +314,10 @@ class ReturnMap:
         matrix: np.ndarray = differences.matrices[0]
         return matrix
 
+    def moved_entries(self, start: State) -> np.ndarray:
+        """Entries of the vector that can make a difference at a state."""
+        return np.flatnonzero(_moved_entries(self.engine, States.of(start))[0])
+
     def jacobians(self, laws: np.ndarray, differences: Differences) -> None:
         """Differentiate the maps of many engines, whose laws have these numbers."""
         self.kernel.call("find_jacobians", self.mapping, iterates_from(), laws, differences)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import enum
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -39,6 +39,7 @@ from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
+from saleg.steady.linear import INPUTS, OUTPUTS, LinearModel, linear_model
 from saleg.steady.return_map import (
     ReturnMap,
     Search,
@@ -239,11 +240,59 @@ class SteadyState:
         NoSteadyState
             If there is no cycle to differentiate.
         """
+        self._check_map()
+        assert self.replay is not None
+        return stability(self.replay, self.mirrored, float(self.strokes["duration"].sum()))
+
+    def linear(
+        self, inputs: Sequence[str] = INPUTS, outputs: Sequence[str] = OUTPUTS
+    ) -> LinearModel:
+        """Linear model from dead centre to dead centre: A, B, C and D with names.
+
+        Parameters
+        ----------
+        inputs : sequence of str
+            What a controller commands at a dead centre, ``load_weight`` [-], ``equivalence_ratio``
+            [-] and ``intake_temperature`` [K], or any number of the engine by its path that
+            changes neither geometry nor gas, in its SI unit. The load weight is added to what the
+            alternator's regulator sets; fuel and intake temperature take effect at the next port
+            closing.
+        outputs : sequence of str
+            What is measured there: ``dead_centre``, its distance from the midpoint [m], and any
+            measured field of :class:`saleg.laws.Signals`, in its SI unit.
+
+        Returns
+        -------
+        LinearModel
+
+        Raises
+        ------
+        NoSteadyState
+            If there is no cycle to differentiate.
+        NoLinearModel
+            If an output is not known, an input changes geometry or gas, or the least change ends
+            the motion.
+        UnknownPath, InvalidEngine
+            If an input is no path of the engine, or stands at a limit of its range.
+
+        Examples
+        --------
+        >>> import saleg
+        >>> model = saleg.steady_state(saleg.machines.thesis_base()).linear(["load_weight"])
+        >>> model
+        <LinearModel: 12 states, 1 inputs, 5 outputs, a step is half a cycle (10.65 ms)>
+        """
+        self._check_map()
+        assert self.replay is not None
+        period = float(self.strokes["duration"].sum())
+        return linear_model(self.replay, self.mirrored, period, inputs, outputs)
+
+    def _check_map(self) -> None:
+        """Refuse a result without a return map to differentiate."""
         if self.replay is None:
             raise NoSteadyState(f"no steady state to differentiate: {self.message}")
         if not self.has_multipliers:
             raise NoSteadyState(f"no return map to differentiate: {self.message}")
-        return stability(self.replay, self.mirrored, float(self.strokes["duration"].sum()))
 
     @property
     def has_multipliers(self) -> bool:

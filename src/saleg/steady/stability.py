@@ -115,15 +115,24 @@ def describe(found: Stability) -> str:
 
 def own_multipliers(engine: Engine, jacobian: np.ndarray) -> np.ndarray:
     """Eigenvalues of the derivative of a return map, the largest first; none of what is kept."""
+    return split_multipliers(engine, jacobian)[0]
+
+
+def split_multipliers(engine: Engine, jacobian: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues of the derivative of a return map, the largest first, and those of what is kept.
+
+    The entropy that a sealed chamber keeps for ever is no instability: a multiplier of one each.
+    """
     matters = jacobian.any(axis=0)  # the others have eigenvalues of zero
     values = np.linalg.eigvals(jacobian[np.ix_(matters, matters)])
-    # The entropy that a sealed chamber keeps for ever is no instability: a multiplier of one each.
+    kept = []
     for _ in sealed_entries(engine):
         nearest = np.argmin(np.abs(values - 1.0))
         if abs(values[nearest] - 1.0) < CONSERVED:
+            kept.append(values[nearest])
             values = np.delete(values, nearest)
     values = values[np.abs(values) > LEAST]
-    return values[np.argsort(-np.abs(values))]
+    return values[np.argsort(-np.abs(values))], np.array(kept, dtype=complex)
 
 
 def judged(own: np.ndarray, mirrored: bool, period: float) -> Stability:
