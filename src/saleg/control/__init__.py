@@ -1,5 +1,6 @@
 """Control (Chapter 5): engines under controllers, and the experiments of the dissertation."""
 
+from saleg.control.dead_centre import DeadCentreControl
 from saleg.control.demand import Demand
 from saleg.control.experiments import (
     fuel_cut,
@@ -37,6 +38,7 @@ from saleg.control.running import (
 from saleg.control.sensors import Sensors
 
 __all__ = [
+    "DeadCentreControl",
     "Demand",
     "OperatingMap",
     "Plant",

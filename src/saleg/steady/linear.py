@@ -255,7 +255,7 @@ class _Image:
     def _image(self, return_map: ReturnMap, start: State, z: np.ndarray | None) -> np.ndarray:
         vector = return_map.image(start, return_map.vector(start) if z is None else z)
         signals = measured(return_map.state)
-        shown = [_output(signals, name) for name in self.outputs]
+        shown = [output_of(signals, name) for name in self.outputs]
         return np.concatenate([vector, shown])
 
 
@@ -334,6 +334,8 @@ def _check_outputs(outputs: Sequence[str]) -> None:
             raise NoLinearModel(f"output {shown(name)}: must be one of {', '.join(known)}")
 
 
-def _output(signals: Signals, name: str) -> Any:
+def output_of(signals: Signals, name: str) -> float:
     """An output as it is measured at a dead centre."""
-    return -signals.direction * signals.x if name == "dead_centre" else getattr(signals, name)
+    return float(
+        -signals.direction * signals.x if name == "dead_centre" else getattr(signals, name)
+    )
