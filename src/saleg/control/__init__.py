@@ -1,6 +1,6 @@
 """Control (Chapter 5): engines under controllers, and the experiments of the dissertation."""
 
-from saleg.control.dead_centre import DeadCentreControl
+from saleg.control.dead_centre import DeadCentreControl, Feedback, PowerAtDeadCentre
 from saleg.control.demand import Demand
 from saleg.control.experiments import (
     fuel_cut,
@@ -26,6 +26,7 @@ from saleg.control.moments import (
     motored_times,
     ports_opened_at,
 )
+from saleg.control.operating_line import OperatingLine, operating_line
 from saleg.control.plant import Plant
 from saleg.control.running import (
     fired_at,
@@ -40,8 +41,11 @@ from saleg.control.sensors import Sensors
 __all__ = [
     "DeadCentreControl",
     "Demand",
+    "Feedback",
+    "OperatingLine",
     "OperatingMap",
     "Plant",
+    "PowerAtDeadCentre",
     "Sensors",
     "demand_by_fuel",
     "demand_by_intake",
@@ -62,6 +66,7 @@ __all__ = [
     "motored",
     "motored_times",
     "operating_grid",
+    "operating_line",
     "operating_map",
     "overload",
     "ports_opened_at",
