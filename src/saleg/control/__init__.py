@@ -1,6 +1,6 @@
 """Control (Chapter 5): engines under controllers, and the experiments of the dissertation."""
 
-from saleg.control.dead_centre import DeadCentreControl, Feedback, PowerAtDeadCentre
+from saleg.control.dead_centre import DeadCentreControl, MisfireGuard, PowerAtDeadCentre
 from saleg.control.demand import Demand
 from saleg.control.experiments import (
     fuel_cut,
@@ -18,6 +18,7 @@ from saleg.control.following import (
     demand_by_load,
     follow_demand,
 )
+from saleg.control.load_feedback import Feedback
 from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
 from saleg.control.moments import (
     first_misfire,
@@ -42,6 +43,7 @@ __all__ = [
     "DeadCentreControl",
     "Demand",
     "Feedback",
+    "MisfireGuard",
     "OperatingLine",
     "OperatingMap",
     "Plant",

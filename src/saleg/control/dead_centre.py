@@ -2,185 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from saleg.checks import NUMBER, POSITIVE, a, checked
 from saleg.control.demand import Demand
+from saleg.control.load_feedback import INPUTS, Feedback, LoadFeedback
 from saleg.control.operating_line import OperatingLine
 from saleg.control.running import generator
-from saleg.errors import InvalidController
 from saleg.laws.arguments import Commands, Signals
-from saleg.laws.usual import LENGTH
-from saleg.quantities import Quantities, problems, quantity
-from saleg.steady.linear import LinearModel, output_of
 from saleg.steady.solver import SteadyState
 
-#: Inputs of the models: what is commanded, and what scatters.
-INPUTS = ("load_weight", "equivalence_ratio")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Feedback(Quantities):
-    """What a state feedback on the dead centre expects and may do.
-
-    Parameters
-    ----------
-    position_noise : float
-        Standard deviation of the error of a measured dead centre [m].
-    frequency_noise : float
-        Standard deviation of the error of the frequency of a stroke [Hz].
-    scatter : float
-        Standard deviation of the equivalence ratio of a charge [-].
-    drift : float
-        Change of the unknown load from one dead centre to the next [-].
-    tolerance : float
-        Deviation of the dead centre that costs as much as a load weight of one [m].
-    maximum_weight : float
-        Largest load weight [-].
-
-    Raises
-    ------
-    InvalidController
-        Naming every wrong field.
-    """
-
-    position_noise: float = quantity("m", default=1e-5, low=0, open_low=True, usual=LENGTH)
-    frequency_noise: float = quantity("Hz", default=0.01, low=0, open_low=True)
-    scatter: float = quantity("-", default=0.05, low=0)
-    drift: float = quantity("-", default=0.003, low=0, open_low=True)
-    tolerance: float = quantity("m", default=1e-3, low=0, open_low=True, usual=LENGTH)
-    maximum_weight: float = quantity("-", default=2.0, low=0)
-
-    def __post_init__(self) -> None:
-        """Check every field."""
-        super().__post_init__()
-        found = problems(self, "feedback")
-        if found:
-            raise InvalidController(found)
-
-    @property
-    def noise(self) -> dict[str, float]:
-        """Outputs that are measured, with the standard deviation of their errors."""
-        return {"dead_centre": self.position_noise, "frequency": self.frequency_noise}
-
-
-@dataclass(eq=False)
-class LoadFeedback:
-    """Load weight by the estimated state of a linear model.
-
-    What is measured at a dead centre corrects the estimate (Kalman filter); the load weight is
-    that of a linear-quadratic regulator on the dead centre. The load d that the engine seems to
-    bear beside the one commanded is the last state: it stays as it is, ``d[k+1] = d[k]``, and the
-    feedback takes it away again (disturbance observer, which is the integral part).
-
-    Attributes
-    ----------
-    A, B, C : ndarray
-        Model of the observer, with the load weight itself as input.
-    feedback : ndarray, shape (n,)
-        ``u = -feedback x``.
-    observer : ndarray, shape (n, p)
-        What a deviation of the measurements adds to the estimate.
-    shifts : ndarray, shape (n, 2)
-        By how much the state at rest changes with load weight and equivalence ratio.
-    maximum_weight : float
-        Largest load weight [-].
-    measured : tuple of str
-        Outputs that are measured.
-    estimate : ndarray, shape (n,)
-        State estimated for the next dead centre, less that at rest.
-    surprise : ndarray, shape (p,)
-        What has been measured at the latest dead centre less what was expected.
-    """
-
-    A: np.ndarray
-    B: np.ndarray
-    C: np.ndarray
-    feedback: np.ndarray
-    observer: np.ndarray
-    shifts: np.ndarray
-    maximum_weight: float
-    measured: tuple[str, ...]
-    estimate: np.ndarray = field(init=False)
-    surprise: np.ndarray = field(init=False)
-
-    def __post_init__(self) -> None:
-        """Begin at rest."""
-        self.estimate, self.surprise = np.zeros(len(self.A)), np.zeros(len(self.C))
-
-    @classmethod
-    def of(cls, model: LinearModel, settings: Feedback) -> LoadFeedback:
-        """Feedback for a model by two Riccati equations.
-
-        Parameters
-        ----------
-        model : LinearModel
-            With ``load_weight`` and ``equivalence_ratio`` as inputs, and with ``dead_centre`` and
-            ``frequency`` among its outputs.
-        settings : Feedback
-        """
-        from scipy.linalg import solve_discrete_are
-
-        noise = settings.noise
-        # The controller sets the load weight itself: what the regulator asks for acts on nothing.
-        A = np.where(np.array(model.states) == "load_weight", 0.0, model.A)
-        n = len(A)
-        by_inputs = model.B[:, [model.inputs.index(name) for name in INPUTS]]
-        load, fuel = by_inputs[:, :1], by_inputs[:, 1:] * settings.scatter
-        goal = model.C[[model.outputs.index("dead_centre")]] / settings.tolerance
-        cost = solve_discrete_are(A, load, goal.T @ goal, np.eye(1))
-        feedback = np.linalg.solve(np.eye(1) + load.T @ cost @ load, load.T @ cost @ A)
-        with_load = np.block([[A, load], [np.zeros((1, n)), np.eye(1)]])
-        shown = np.zeros((len(noise), n + 1))
-        shown[:, :n] = model.C[[model.outputs.index(name) for name in noise]]
-        disturbed = np.zeros((n + 1, n + 1))
-        disturbed[:n, :n] = fuel @ fuel.T
-        disturbed[n, n] = settings.drift**2
-        errors = np.diag(np.square(list(noise.values())))
-        spread = solve_discrete_are(with_load.T, shown.T, disturbed, errors)
-        return cls(
-            A=with_load,
-            B=np.append(load, 0.0),
-            C=shown,
-            feedback=np.append(feedback, 1.0),
-            observer=np.linalg.solve(shown @ spread @ shown.T + errors, shown @ spread).T,
-            shifts=np.vstack([np.linalg.solve(np.eye(n) - A, by_inputs), np.zeros((1, 2))]),
-            maximum_weight=settings.maximum_weight,
-            measured=tuple(noise),
-        )
-
-    def weight(self, signals: Signals, shown_at_rest: np.ndarray, rest_weight: float) -> float:
-        """Load weight until the next dead centre [-].
-
-        Parameters
-        ----------
-        signals : Signals
-        shown_at_rest : ndarray, shape (p,)
-            What would be measured at rest [in its units].
-        rest_weight : float
-            Load weight at rest [-].
-        """
-        if signals.frequency > 0.0:  # there has been a stroke to measure
-            shown = np.array([output_of(signals, name) for name in self.measured])
-            self.surprise = shown - shown_at_rest - self.C @ self.estimate
-            self.estimate = self.estimate + self.observer @ self.surprise
-        wanted = rest_weight - float(self.feedback @ self.estimate)
-        weight = min(max(wanted, 0.0), self.maximum_weight)
-        self.estimate = self.A @ self.estimate + self.B * (weight - rest_weight)
-        return weight
-
-    def shift(self, weight: float, equivalence_ratio: float) -> None:
-        """Go over to a rest of another load weight and equivalence ratio, by so much [-]."""
-        self.estimate = self.estimate - self.shifts @ np.array([weight, equivalence_ratio])
+if TYPE_CHECKING:
+    from saleg.control.running import Acts
 
 
 class DeadCentreControl:
     """Dead centre held by the load: feed-forward, state feedback and disturbance observer.
 
     The load weight of the steady state is the feed-forward, see :class:`Feedback` for the rest.
-    The regulator of the alternator is left out. Of an engine with unlike sides the left dead
+    The regulator of the alternator is left out, but for the way to the steady state and wherever
+    the model has not held for some strokes. Of an engine with unlike sides the left dead
     centre is held, and the load stays as it is at right ones.
 
     Parameters
@@ -188,6 +31,11 @@ class DeadCentreControl:
     steady : SteadyState
         The steady state to hold.
     feedback : Feedback, optional
+
+    Attributes
+    ----------
+    failures : list of float
+        When a charge was found to have failed [s].
 
     Raises
     ------
@@ -210,6 +58,7 @@ class DeadCentreControl:
         settings = feedback or Feedback()
         self.model = steady.linear(INPUTS, tuple(settings.noise))
         self.loop = LoadFeedback.of(self.model, settings)
+        self.failures: list[float] = []
         self._latest: Commands | None = None
 
     def act(self, signals: Signals) -> Commands:
@@ -226,9 +75,73 @@ class DeadCentreControl:
         """
         if self._latest is None or self.model.mirrored or signals.direction > 0.0:
             rest = float(self.model.input_values[0])
-            weight = self.loop.weight(signals, self.model.output_values, rest)
+            self.loop.observe(signals, self.model.output_values)
+            if self.loop.failed and not self.loop.lost:
+                self.failures.append(signals.t)
+            weight = signals.regulated_weight if self.loop.lost else self.loop.weight(rest)
+            self.loop.go_on(weight - rest)
             self._latest = generator(signals, load_weight=weight)
         return self._latest
+
+
+class MisfireGuard:
+    """Load of another controller, lowered where the next charge would miss its dead centre.
+
+    The linear model of a steady state says at every dead centre where the engine will turn next;
+    a load weight with which it would turn too early to light the charge is lowered. Fuel, intake
+    and motor stay as the other controller has them.
+
+    Parameters
+    ----------
+    controller : object with a method ``act(signals)``
+        What commands otherwise.
+    steady : SteadyState
+        Steady state of an engine whose sides are alike.
+    least : float
+        Least distance of a dead centre from the midpoint [m].
+    feedback : Feedback, optional
+
+    Attributes
+    ----------
+    lowered : list of float
+        When the load was lowered [s].
+    """
+
+    @checked(steady=a(SteadyState), least=POSITIVE, feedback=a(Feedback).optional)
+    def __init__(
+        self,
+        controller: Acts,
+        steady: SteadyState,
+        least: float,
+        feedback: Feedback | None = None,
+    ):
+        settings = feedback or Feedback()
+        self.controller, self.least = controller, least
+        self.model = steady.linear(INPUTS, tuple(settings.noise))
+        self.loop = LoadFeedback.of(self.model, settings)
+        self.lowered: list[float] = []
+
+    def act(self, signals: Signals) -> Commands:
+        """Commands at a dead centre.
+
+        Parameters
+        ----------
+        signals : Signals
+
+        Returns
+        -------
+        Commands
+            Those of the other controller, with a load weight that is no larger.
+        """
+        commands = self.controller.act(signals)
+        rest, at_rest = float(self.model.input_values[0]), self.model.output_values
+        self.loop.observe(signals, at_rest)
+        greatest = self.loop.greatest_weight(rest, self.least - float(at_rest[0]))
+        if commands.motoring == 0.0 and commands.load_weight > greatest:
+            commands = commands._replace(load_weight=greatest)
+            self.lowered.append(signals.t)
+        self.loop.go_on(commands.load_weight - rest)
+        return commands
 
 
 class PowerAtDeadCentre:
@@ -312,7 +225,9 @@ class PowerAtDeadCentre:
             self.loop.shift(weight - self._rest[0], fuel - self._rest[1])
         self._rest = weight, fuel
         shown = np.array([np.interp(power, line.powers, values) for values in self._shown.T])
-        load = self.loop.weight(signals, shown, weight)
+        self.loop.observe(signals, shown)
+        load = signals.regulated_weight if self.loop.lost else self.loop.weight(weight)
+        self.loop.go_on(load - weight)
         return generator(signals, load_weight=load, equivalence_ratio=fuel)
 
     def _demanded(self, t: float) -> float:
