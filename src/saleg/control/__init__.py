@@ -20,6 +20,7 @@ from saleg.control.following import (
 )
 from saleg.control.load_feedback import Feedback
 from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
+from saleg.control.margin import ignition_margins, misfire_warning
 from saleg.control.moments import (
     first_misfire,
     fuel_cuts,
@@ -27,7 +28,7 @@ from saleg.control.moments import (
     motored_times,
     ports_opened_at,
 )
-from saleg.control.operating_line import OperatingLine, operating_line
+from saleg.control.operating_line import NoOperatingLine, OperatingLine, operating_line
 from saleg.control.plant import Plant
 from saleg.control.running import (
     fired_at,
@@ -44,6 +45,7 @@ __all__ = [
     "Demand",
     "Feedback",
     "MisfireGuard",
+    "NoOperatingLine",
     "OperatingLine",
     "OperatingMap",
     "Plant",
@@ -59,9 +61,11 @@ __all__ = [
     "fuel_cuts",
     "fuel_map",
     "generator",
+    "ignition_margins",
     "intake_map",
     "late_ignitions",
     "misfire",
+    "misfire_warning",
     "misfires",
     "motor",
     "motor_returns",
