@@ -26,6 +26,8 @@ STROKE_UNITS = {
     "peak_acceleration": "m/s^2",
     "peak_velocity": "m/s",
     "spring_energy": "J",
+    "frame_energy": "J",
+    "mount_loss": "J",
     "motoring": "-",
     "motor_amplitude": "N",
     "motor_frequency": "Hz",

@@ -426,4 +426,6 @@ CHAMBER_SLOTS: dict[str, type[Law]] = {
         Wall,
     )
 }
-ENGINE_SLOTS: dict[str, type[Law]] = {law.slot: law for law in (Springs, Friction, Alternator, Frame)}
+ENGINE_SLOTS: dict[str, type[Law]] = {
+    law.slot: law for law in (Springs, Friction, Alternator, Frame)
+}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -16,8 +17,8 @@ from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
 from saleg.laws import Frame
 from saleg.quantities import Problem, problems
-from saleg.reference.runs import checked_settings, run_of
 from saleg.reference.running_engine import RunningEngine
+from saleg.reference.runs import checked_settings, run_of
 from saleg.reference.segments import (
     Event,
     Rates,
@@ -115,9 +116,7 @@ def simulate_on_one_frame(
     except SolverFailure as failure:
         code, trouble = layout.STEP_FAILURE, f" ({failure})"
     settings = {"method": "DOP853", "rtol": rtol, "frame": repr(frame)}
-    runs = tuple(
-        run_of(running, code, trouble, group.tally, settings) for running in group.running
-    )
+    runs = tuple(run_of(running, code, trouble, group.tally, settings) for running in group.running)
     return Together(runs, group.table())
 
 
@@ -167,7 +166,7 @@ class _Group:
     def slices(self) -> list[slice]:
         """Where each engine stands in the vector of all."""
         ends = np.cumsum([0, *(len(one.y) for one in self.running)])
-        return [slice(int(a), int(b)) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+        return [slice(int(a), int(b)) for a, b in itertools.pairwise(ends)]
 
     def run_on(self, duration: float) -> int:
         """Go from event to event; returns why it stopped, as a code of the layout."""

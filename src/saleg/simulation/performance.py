@@ -404,7 +404,8 @@ class EnergyBalance:
         """
         last, all_of = strokes[..., -1], summed(strokes)
         held_before, held_after = (
-            row["spring_energy"] + row["frame_energy"] + both(row["internal_energy"]) for row in (before, last)
+            row["spring_energy"] + row["frame_energy"] + both(row["internal_energy"])
+            for row in (before, last)
         )
         terms = {
             "released": both(all_of["heat_released"]),

@@ -36,8 +36,8 @@ from saleg.simulation.outcome import (
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
 from saleg.simulation.scavenging import Scavenging, scavenging_of
-from saleg.simulation.shaking import Shaking, shaking_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
+from saleg.simulation.shaking import Shaking, shaking_of
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import (
