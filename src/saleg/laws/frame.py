@@ -49,7 +49,7 @@ class MountedFrame(Frame):
     states: ClassVar[tuple[str, ...]] = ("frame",)
     mirrors = True
 
-    mass: float = quantity("kg", low=0, open_low=True, usual=(1, 1e6))
+    mass: float = quantity("kg", default=100.0, low=0, open_low=True, usual=(1, 1e6))
     stiffness: float = quantity("N/m", default=0.0, low=0, usual=(0, 1e8))
     damping: float = quantity("N s/m", default=0.0, low=0, usual=(0, 1e6))
 
