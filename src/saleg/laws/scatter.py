@@ -69,7 +69,7 @@ class CyclicVariability(Scatter):
     1.0
     """
 
-    seed: float = quantity("-", default=0.0, low=0, high=2**31, whole=True)
+    seed: float = quantity("-", default=0, low=0, high=2**31 - 1, whole=True)
     fuel: float = quantity("-", default=0.0, low=0, high=0.3)
     delay: float = quantity("-", default=0.0, low=0, high=0.3)
     duration: float = quantity("-", default=0.0, low=0, high=0.3)
