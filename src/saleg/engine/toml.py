@@ -184,7 +184,10 @@ def _table(path: str, node: Any) -> list[str]:
         if dataclasses.is_dataclass(value):
             below += _table(f"{path}.{item.name}", value)
         else:
-            lines.append(f"{item.name} = {_number_text(value)}{_unit_comment(item)}")
+            limits = item.metadata.get("limits")
+            whole = limits is not None and limits.kind is int
+            text = repr(value) if whole else _number_text(value)
+            lines.append(f"{item.name} = {text}{_unit_comment(item)}")
     return lines + below
 
 
@@ -296,7 +299,8 @@ class _Reader:
         if not is_number(value):
             self.wrong.append(f"{path} = {_short(value)}: must be a number")
             return None
-        return float(value)
+        limits = item.metadata.get("limits")
+        return float(value) if limits is None or limits.kind is float else value
 
     def _is_table(self, value: Any, path: str) -> bool:
         if isinstance(value, dict):
