@@ -13,6 +13,7 @@ from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, 
 from saleg.laws.base import (
     Alternator,
     FlowExchange,
+    Frame,
     Friction,
     GasExchange,
     GasProperties,
@@ -22,6 +23,7 @@ from saleg.laws.base import (
     Law,
     Leak,
     Misfires,
+    Scatter,
     Springs,
     Supply,
     Validity,
@@ -43,6 +45,7 @@ from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.earlier_names import accept_earlier_names
+from saleg.laws.frame import FixedFrame, MountedFrame
 from saleg.laws.friction import (
     BlairViscousFriction,
     ConstantFriction,
@@ -74,6 +77,7 @@ from saleg.laws.ignition import (
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
+from saleg.laws.scatter import CyclicVariability, NoScatter
 from saleg.laws.springs import (
     AirSprings,
     EndStops,
@@ -109,14 +113,17 @@ __all__ = [
     "CosineForce",
     "CoulombViscousFriction",
     "Crankcase",
+    "CyclicVariability",
     "DeadCentreRegulator",
     "DoubleWiebe",
     "Drive",
     "EndStops",
+    "FixedFrame",
     "FixedWall",
     "FlowExchange",
     "FluxProfile",
     "ForceMap",
+    "Frame",
     "Friction",
     "FrictionShare",
     "FuelControl",
@@ -146,12 +153,14 @@ __all__ = [
     "MixtureGas",
     "Motion",
     "MotorControl",
+    "MountedFrame",
     "NeverMotored",
     "NoFriction",
     "NoFuel",
     "NoHeatTransfer",
     "NoLeak",
     "NoMisfires",
+    "NoScatter",
     "OneSidedSprings",
     "Plenum",
     "PolytropicLoss",
@@ -166,6 +175,7 @@ __all__ = [
     "ResonanceSearch",
     "RingLeak",
     "ScaledLoad",
+    "Scatter",
     "ScheduledMisfires",
     "Signals",
     "SinusoidalMotor",

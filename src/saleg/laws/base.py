@@ -382,6 +382,58 @@ class Alternator(Law):
         return math.inf
 
 
+class Frame(Law):
+    """Frame of the engine: all that does not move with the translator.
+
+    Fixed, or for a law that asks for the state "frame" moving: its position and velocity [m, m/s]
+    are integrated then, `force` [N] being that which springs, gas, alternator and friction exert on
+    it.
+    """
+
+    slot = "frame"
+    compiled = ("acceleration", "transmitted", "energy", "loss")
+    optional = compiled
+
+    def acceleration(self, force: float, x: float, v: float) -> float:
+        """Acceleration of the frame [m/s^2]."""
+        return 0.0
+
+    def transmitted(self, force: float, x: float, v: float) -> float:
+        """Force on what the frame stands on [N]."""
+        return force
+
+    def energy(self, x: float, v: float) -> float:
+        """Kinetic energy of the frame, and energy that its mounts store [J]."""
+        return 0.0
+
+    def loss(self, v: float) -> float:
+        """Power that its mounts turn into heat [W]."""
+        return 0.0
+
+
+class Scatter(Law):
+    """What differs from charge to charge: factors on what the other laws say, asked once a charge.
+
+    `charge_number` counts the charges of a cylinder; `side` is 0 for the left one, 1 for the right.
+    """
+
+    slot = "scatter"
+    compiled = ("fuel_factor", "delay_factor", "duration_factor")
+    optional = compiled
+
+    def fuel_factor(self, charge_number: float, side: float) -> float:
+        """Fuel metered to a charge over that commanded [-]."""
+        return 1.0
+
+    def delay_factor(self, charge_number: float, side: float) -> float:
+        """Value that the ignition integral has to reach [-]."""
+        return 1.0
+
+    def duration_factor(self, charge_number: float, side: float) -> float:
+        """Combustion duration over that of the burn law [-]."""
+        return 1.0
+
+
 #: Slots of one chamber and slots of the whole engine, by name.
 CHAMBER_SLOTS: dict[str, type[Law]] = {
     law.slot: law
@@ -397,4 +449,6 @@ CHAMBER_SLOTS: dict[str, type[Law]] = {
         Wall,
     )
 }
-ENGINE_SLOTS: dict[str, type[Law]] = {law.slot: law for law in (Springs, Friction, Alternator)}
+ENGINE_SLOTS: dict[str, type[Law]] = {
+    law.slot: law for law in (Springs, Friction, Alternator, Frame, Scatter)
+}

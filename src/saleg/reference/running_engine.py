@@ -107,7 +107,8 @@ class RunningEngine:
         """Engine at time zero, as its start law has it."""
         start = engine.start.initial(engine)
         contents = (start.left, start.right)
-        has_states = any(chamber.states for chamber in engine.chambers)
+        frame_moves = "frame" in engine.frame.states
+        has_states = frame_moves or any(chamber.states for chamber in engine.chambers)
         y = np.zeros(layout.N_ALL if has_states else QUADRATURES + layout.N_QUADRATURES)
         y[POSITION], y[VELOCITY] = start.x, start.v
         y[PRESSURE : PRESSURE + 2] = [held.pressure for held in contents]
@@ -116,6 +117,7 @@ class RunningEngine:
         mass = float(engine.translator.mass)
         speed = start.mean_piston_speed
         machine = EngineState(mass, engine.back_force, float(motored), start.stroke, speed)
+        machine.frame_moves = float(frame_moves)
         totals = [StrokeTotals(), StrokeTotals()]
         x = start.x if start.at_dead_centre else math.nan
         self = cls(engine, 0.0, y, machine, chambers, totals, x)
@@ -272,6 +274,7 @@ class RunningEngine:
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, CombustionChamber)
         c.duration = chamber.heat_release.duration(self.gas(side), self.charge(side))
+        c.duration *= self.engine.scatter.duration_factor(c.number, float(side))
         burnable = min(c.fuel, c.air / chamber.fuel.air_fuel_ratio)
         c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
         c.mode, c.armed, c.t_ignition, c.mass_lit = layout.BURNING, 0.0, self.t, c.mass
@@ -327,6 +330,7 @@ class RunningEngine:
             self.end_combustion(side)
         c.mode, c.armed = layout.OPEN, 0.0
         self.y[INTEGRAL + side] = 0.0
+        c.fuel_factor = self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
         if c.by_flow:
             self.y[layout.FRESH + side] = 0.0
             return
@@ -369,8 +373,9 @@ class RunningEngine:
         c, chamber, totals = self.chambers[side], self.engine.chambers[side], self.totals[side]
         assert isinstance(chamber, CombustionChamber)
         fuel_before, ratio = c.fuel, chamber.fuel.air_fuel_ratio
+        factor = self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
         c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
-            c.mass, c.fuel, c.air, c.burnt, chamber.equivalence_ratio, ratio
+            c.mass, c.fuel, c.air, c.burnt, factor * chamber.equivalence_ratio, ratio
         )
         put_state(chamber, c, self.y, side, p, T)
         self._trap(side, p, T)
@@ -389,7 +394,8 @@ class RunningEngine:
         c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:
             c.armed = layout.FAILING
-        self.y[INTEGRAL + side] = 0.0
+        factor = self.engine.scatter.delay_factor(c.number, float(side))
+        self.y[INTEGRAL + side] = 1.0 - factor
 
     # Dead centres.
 
@@ -460,6 +466,8 @@ class RunningEngine:
         row["peak_acceleration"] = self.peaks[layout.PEAK_ACCELERATION]
         behind = self.machine.back_force * x
         row["spring_energy"] = self.engine.springs.energy(motion) - behind
+        if self.machine.frame_moves:
+            row["frame_energy"], row["mount_loss"] = self._energy_of_frame()
         row["equivalence_ratio"], row["intake_temperature"] = ratings(self.engine)
         for side in (0, 1):
             for name, value in vars(self.totals[side]).items():
@@ -472,6 +480,12 @@ class RunningEngine:
             if c.breathes:
                 write_passed(c, self.y, side, row[0])
         return row
+
+    def _energy_of_frame(self) -> tuple[float, float]:
+        """Energy of the frame, its mounts and what it carries, and heat in the mounts [J]."""
+        x, v = (float(self.y[n]) for n in (layout.FRAME_X, layout.FRAME_V))
+        carried = 0.5 * self.machine.mass * v**2
+        return self.engine.frame.energy(x, v) + carried, float(self.y[layout.MOUNT_LOSS])
 
     def _fuel_energy(self, side: int) -> float:
         """Lower heating value of the unburnt fuel in a chamber [J]."""

@@ -35,6 +35,8 @@ class EngineState:
         Of the latest stroke [m, m/s].
     load_weight, friction_held : float
         What the laws of alternator and friction hold.
+    frame_moves : float
+        1 if position and velocity of the frame are states, else 0.
     direction : float
         +1 on the way right, -1 on the way left, 0 before the first movement.
     """
@@ -46,6 +48,7 @@ class EngineState:
     mean_piston_speed: float
     load_weight: float = 0.0
     friction_held: float = 0.0
+    frame_moves: float = 0.0
     direction: float = 0.0
 
 
@@ -82,6 +85,8 @@ class ChamberState:
         Clearance at the ports [m], state of the intake [Pa, K].
     equivalence_ratio_wanted, air_fuel_ratio, lower_heating_value : float
         Of fresh gas and of the fuel [-, -, J/kg].
+    fuel_factor : float
+        Fuel metered to the coming charge over that commanded [-].
     mass_lit, fresh : float
         Mass of the charge when it was lit, and fresh gas in it when it was trapped [kg].
     """
@@ -118,6 +123,7 @@ class ChamberState:
     equivalence_ratio_wanted: float = 0.0
     air_fuel_ratio: float = 1.0
     lower_heating_value: float = 0.0
+    fuel_factor: float = 1.0
     mass_lit: float = 1.0
     fresh: float = 0.0
 

@@ -204,6 +204,10 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
     E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
     E.regulated_weight = E.load_weight
+    held = engine.frame.acceleration(0.0, 1.0, 0.0) != 0.0
+    E.frame_is_held = 1.0 if held else 0.0
+    slowed = engine.frame.acceleration(0.0, 0.0, 1.0) != 0.0
+    E.frame_is_slowed = 1.0 if held or slowed else 0.0
     _rate(E, C, engine)
 
 
@@ -272,7 +276,7 @@ def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
     c.breathes = float("contents" in chamber.states)
     if isinstance(chamber, Cylinder):
         c.by_flow = float("contents" in chamber.gas_exchange.states)
-    c.air_fuel_ratio = 1.0
+    c.air_fuel_ratio = c.fuel_factor = 1.0
     if isinstance(chamber, SealedCylinder):
         c.curve_exponent = chamber.curve_exponent
     if isinstance(chamber, CombustionChamber):
