@@ -9,10 +9,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import casadi
-import control
 import matplotlib.pyplot as plt
 import numpy as np
 
+import control
 import saleg
 from saleg.control import Plant, generator
 

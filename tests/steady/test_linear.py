@@ -7,7 +7,9 @@ import saleg
 from saleg import laws
 from saleg.control import Plant, generator
 from saleg.errors import UnknownPath
+from saleg.kernel import layout
 from saleg.steady import NoLinearModel, NoSteadyState
+from saleg.steady.entry_names import ENTRY_NAMES
 
 #: Small steps of what a controller commands.
 STEPS = {"load_weight": 0.005, "equivalence_ratio": 0.003, "intake_temperature": 1.0}
@@ -144,6 +146,11 @@ def test_unlike_sides_get_a_model_of_a_whole_cycle_and_lose_what_they_keep():
     kept = np.sort(np.abs(eigenvalues(model)))[::-1]
     own = np.append(np.abs(steady.multipliers), 1.0)
     np.testing.assert_allclose(kept[: len(own)], np.sort(own)[::-1], atol=1e-8)
+
+
+def test_every_number_of_a_state_has_a_name_of_its_own():
+    assert sorted(ENTRY_NAMES) == list(range(layout.N_VECTOR))
+    assert len(set(ENTRY_NAMES.values())) == layout.N_VECTOR
 
 
 def test_python_control_takes_it(model):

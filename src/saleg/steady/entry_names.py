@@ -12,6 +12,8 @@ ENGINE_ENTRIES = {
     orbit.Z_FUEL_ENERGY: "fuel_energy",
     orbit.Z_SPEED_SQUARED: "speed_squared",
     orbit.Z_AMPERES: "current",
+    orbit.Z_FRAME_X: "frame_position",
+    orbit.Z_FRAME_V: "frame_velocity",
     orbit.Z_LN_MASS_MOVING: "ln_moving_mass",
 }
 #: Of a chamber, by entry after the first of its side.
