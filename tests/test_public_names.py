@@ -39,6 +39,7 @@ PUBLIC = (
     "saleg.reporting",
     "saleg.sensitivity",
     "saleg.start",
+    "saleg.steady",
     "saleg.studies",
     "saleg.sweep",
     "saleg.thesis.appendix_c",

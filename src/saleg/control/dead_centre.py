@@ -118,7 +118,8 @@ class MisfireGuard:
         settings = feedback or Feedback()
         self.controller, self.least = controller, least
         self.model = steady.linear(INPUTS, tuple(settings.noise))
-        self.loop = LoadFeedback.of(self.model, settings)
+        # The swings of an overload are no load to get used to.
+        self.loop = LoadFeedback.of(self.model, settings, regains=False)
         self.lowered: list[float] = []
 
     def act(self, signals: Signals) -> Commands:

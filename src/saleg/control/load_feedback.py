@@ -74,8 +74,8 @@ class LoadFeedback:
     What is measured at a dead centre corrects the estimate (Kalman filter); the load weight is
     that of a linear-quadratic regulator on the dead centre. The load d that the engine seems to
     bear beside the one commanded is the last state: it stays as it is, ``d[k+1] = d[k]``, and the
-    feedback takes it away again (disturbance observer, which is the integral part). It learns
-    nothing from a dead centre so strange that a charge must have failed.
+    feedback takes it away again (disturbance observer, which is the integral part). Nothing is
+    learnt of it from a dead centre so strange that a charge must have failed.
 
     Attributes
     ----------
@@ -92,6 +92,8 @@ class LoadFeedback:
     shifts : ndarray, shape (n, 2)
         By how much the state at rest changes with load weight and equivalence ratio.
     settings : Feedback
+    regains : bool
+        Whether the unknown load is learnt all the same where the model is lost.
     estimate : ndarray, shape (n,)
         State less that at rest, estimated for the dead centre that comes, or is at hand.
     strangeness : float
@@ -109,6 +111,7 @@ class LoadFeedback:
     expected: np.ndarray
     shifts: np.ndarray
     settings: Feedback
+    regains: bool = True
     estimate: np.ndarray = field(init=False)
     strangeness: float = 0.0
     failed_in_a_row: int = PATIENCE
@@ -118,7 +121,7 @@ class LoadFeedback:
         self.estimate = np.zeros(len(self.A))
 
     @classmethod
-    def of(cls, model: LinearModel, settings: Feedback) -> LoadFeedback:
+    def of(cls, model: LinearModel, settings: Feedback, regains: bool = True) -> LoadFeedback:
         """Feedback for a model by two Riccati equations.
 
         Parameters
@@ -127,6 +130,7 @@ class LoadFeedback:
             With ``load_weight`` and ``equivalence_ratio`` as inputs, and with ``dead_centre`` and
             ``frequency`` among its outputs.
         settings : Feedback
+        regains : bool
         """
         from scipy.linalg import solve_discrete_are
 
@@ -158,6 +162,7 @@ class LoadFeedback:
             expected=expected,
             shifts=np.vstack([np.linalg.solve(np.eye(n) - A, by_inputs), np.zeros((1, 2))]),
             settings=settings,
+            regains=regains,
         )
 
     @property
@@ -186,7 +191,8 @@ class LoadFeedback:
         self.strangeness = float(np.sqrt(surprise @ np.linalg.solve(self.expected, surprise)))
         self.failed_in_a_row = self.failed_in_a_row + 1 if self.failed else 0
         correction = self.observer @ surprise
-        correction[-1] *= not self.failed
+        if self.failed and not (self.regains and self.lost):
+            correction[-1] = 0.0
         self.estimate = self.estimate + correction
 
     def weight(self, rest: float) -> float:
