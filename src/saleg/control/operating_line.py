@@ -78,7 +78,7 @@ def operating_line(engine: Engine, powers: Sequence[float]) -> OperatingLine:
     --------
     >>> import saleg
     >>> line = saleg.control.operating_line(saleg.machines.thesis_transient(), [3000.0])
-    >>> line.steady[0].performance.compression_ratio.round(2)
+    >>> round(line.steady[0].performance.compression_ratio, 2)
     17.87
     """
     known = steady_state(engine)

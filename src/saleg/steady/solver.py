@@ -288,7 +288,7 @@ class SteadyState:
         >>> import saleg
         >>> model = saleg.steady_state(saleg.machines.thesis_base()).linear(["load_weight"])
         >>> model
-        <LinearModel: 12 states, 1 inputs, 5 outputs, a step is half a cycle (10.65 ms)>
+        <LinearModel: 18 states, 1 inputs, 5 outputs, a step is half a cycle (10.65 ms)>
         """
         self._check_map()
         assert self.replay is not None
