@@ -12,7 +12,7 @@ import numpy as np
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine
 from saleg.kernel import layout, tableaus
-from saleg.kernel.tuples import Snapshots
+from saleg.kernel.tuples import Integration, Snapshots
 from saleg.laws.arguments import Commands
 from saleg.simulation.initial_state import State
 from saleg.simulation.kernel_arguments import arguments_of
@@ -82,6 +82,11 @@ class Course:
         )
         #: What else a run says of how it came about.
         self.described: dict[str, Any] = {}
+
+    @property
+    def arguments(self) -> Integration:
+        """Arguments of the integrator."""
+        return self._arguments
 
     @property
     def snapshots(self) -> Snapshots:
