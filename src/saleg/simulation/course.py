@@ -80,6 +80,8 @@ class Course:
             options=self.options,
             tables=self.records.tables,
         )
+        #: Whether a charge failed to light in the latest call of the kernel.
+        self.misfired = False
         #: What else a run says of how it came about.
         self.described: dict[str, Any] = {}
 
@@ -135,6 +137,7 @@ class Course:
     def advance(self) -> int:
         """Call the kernel once; returns why it stopped."""
         code = self.kernel.call("run_on", self._arguments)
+        self.misfired = self.records.has(layout.EVENT_MISFIRE)
         self.records.make_room()
         return int(code)
 

@@ -1,0 +1,158 @@
+"""Environments of gymnasium: what its checker says, one engine beside many, speed."""
+
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+import saleg
+from saleg.control import Plant, Plants, generator
+from saleg.errors import ControllerError
+from saleg.laws import Actuators
+from saleg.simulation.settings import SettingsError
+
+gymnasium = pytest.importorskip("gymnasium")
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import SyncVectorEnv
+
+from saleg.plugs.gymnasium import EngineEnv, EngineVectorEnv
+from saleg.plugs.task import TaskError
+
+BASE = saleg.machines.thesis_base()
+ACTIONS = {
+    "load_weight": (0.3, 1.7),
+    "equivalence_ratio": (0.3, 0.8),
+    "intake_temperature": (300.0, 340.0),
+}
+
+
+def heavier(engine, chance):
+    return engine.replace(moving_mass=2.39 * chance.uniform(0.9, 1.1))
+
+
+def test_the_checker_of_gymnasium_has_nothing_to_say():
+    env = gymnasium.make("saleg/Engine-v0", engine=BASE, actions=ACTIONS, randomise=heavier)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env.unwrapped)
+    envs = gymnasium.make_vec("saleg/Engine-v0", num_envs=2, engine=BASE)
+    assert envs.observation_space.contains(envs.reset(seed=1)[0])
+
+
+def test_many_plants_do_what_each_plant_does_to_the_last_bit():
+    engines = [BASE, BASE.replace(moving_mass=2.6), BASE]
+    actuators = Actuators(load_lag=0.02)
+    plants = Plants(engines, 0.3, actuators=actuators)
+    alone = [Plant(engine, 0.3, actuators=actuators) for engine in engines]
+    weights = np.array([1.0, 0.9, 1.2])
+    while plants.running.any():
+        seen = plants.signals
+        plants.advance(generator(seen, load_weight=weights * seen.regulated_weight))
+        for plant, weight in zip(alone, weights, strict=True):
+            if plant.running:
+                seen_alone = plant.signals
+                plant.command(
+                    generator(seen_alone, load_weight=weight * seen_alone.regulated_weight)
+                )
+                plant.advance()
+        np.testing.assert_array_equal(
+            np.array(plants.signals).T, np.array([plant.signals for plant in alone])
+        )
+    assert plants.time_is_up.all()
+    assert all(plant.time_is_up for plant in alone)
+
+
+def test_an_episode_is_the_same_alone_and_among_many():
+    strokes, seed = 12, 5
+    given = {"actions": ACTIONS, "randomise": heavier, "strokes": 5}
+    many = EngineVectorEnv(BASE, 2, **given)
+    others = SyncVectorEnv([lambda: EngineEnv(BASE, **given)] * 2)
+    chance = np.random.default_rng(1)
+    (seen, _), (seen_others, _) = many.reset(seed=seed), others.reset(seed=seed)
+    np.testing.assert_array_equal(seen, seen_others)
+    for _ in range(strokes):
+        action = chance.uniform(-0.3, 0.3, (2, 3))
+        *found, info = many.step(action)
+        *wanted, _ = others.step(action)
+        for one, other in zip(found, wanted, strict=True):
+            np.testing.assert_array_equal(one, other)
+        assert many.observation_space.contains(found[0])
+    assert info["stroke"].shape == (2,)
+
+
+def test_no_load_ends_at_a_head_or_goes_on_and_too_much_load_ends_the_motion():
+    """A load that takes more than the charges give stops the translator: a stall or a misfire."""
+    env = EngineEnv(BASE, actions={"load_weight": (0.0, 9.0)}, misfire_ends=False)
+    env.reset(seed=0)
+    ended = cut = False
+    while not (ended or cut):
+        _, reward, ended, cut, info = env.step([1.0])
+    assert ended
+    assert not cut
+    assert info["stroke"] < 0.5 * BASE.maximum_stroke
+    assert reward < -10.0  # the penalty, and a stroke far from its target
+
+
+def test_a_misfire_ends_an_episode_at_its_stroke():
+    """Too much load compresses too little: both kinds end at the first stroke that fails to fire."""
+    actions = {"load_weight": (1.0, 9.0)}
+    env, envs = EngineEnv(BASE, actions=actions), EngineVectorEnv(BASE, 2, actions=actions)
+    env.reset()
+    envs.reset()
+    for _ in range(10):
+        *_, ended, _, info = env.step([1.0])
+        *_, all_ended, _, infos = envs.step([[1.0], [-1.0]])
+        assert all_ended.tolist() == [ended, False]
+        assert infos["misfired"].tolist() == [info["misfired"], False]
+        if ended:
+            break
+    assert info["misfired"]
+
+
+def test_rewards_are_power_less_deviation():
+    env = EngineEnv(BASE, observations={"power": (0.0, 4e4)})
+    env.reset()
+    observation, reward, *_, info = env.step([0.0])
+    assert observation == pytest.approx([info["power"] / 2e4 - 1.0], rel=1e-6)
+    task = env.task.reward
+    deviation = abs(info["stroke"] / 0.18 - 1.0)
+    assert reward == pytest.approx(info["power"] / task.rated_power - 10.0 * deviation)
+
+
+def test_what_makes_no_sense_is_named():
+    with pytest.raises(TaskError, match="no 'load_wait'.*load_weight"):
+        EngineEnv(BASE, actions={"load_wait": (0, 1)})
+    with pytest.raises(TaskError, match="least first"):
+        EngineEnv(BASE, observations={"power": (1.0, 0.0)})
+    with pytest.raises(TaskError, match="strokes = 0"):
+        EngineVectorEnv(BASE, 2, strokes=0)
+    with pytest.raises(SettingsError, match=r"engines\[1\] has other laws"):
+        Plants([BASE, BASE.replace(friction=saleg.laws.ConstantFriction())], 1.0)
+
+
+def test_refused_commands_move_no_engine():
+    plants = Plants([BASE, BASE], 1.0)
+    seen = plants.signals
+    with pytest.raises(ControllerError, match="engine 1: load_weight = 11.0"):
+        plants.advance(generator(seen, load_weight=np.array([1.0, 11.0])))
+    assert plants.time.tolist() == [0.0, 0.0]
+
+
+def test_many_make_ten_times_the_strokes_of_one():
+    """In one process, one after the other, the best of some rounds of each."""
+    env, envs = EngineEnv(BASE), EngineVectorEnv(BASE, 256)
+    env.reset()
+    envs.reset()
+
+    def rate(step, strokes, rounds):
+        best = np.inf
+        for _ in range(rounds):
+            begun = time.perf_counter()
+            step()
+            best = min(best, time.perf_counter() - begun)
+        return strokes / best
+
+    one = rate(lambda: env.step([0.0]), 1, 100)
+    many = rate(lambda: envs.step(np.zeros((256, 1))), 256, 10)
+    assert many > 10.0 * one
