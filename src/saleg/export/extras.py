@@ -8,7 +8,7 @@ from typing import Any
 from saleg.errors import SalegError
 
 #: Extra of saleg that brings a package.
-EXTRAS = {"h5py": "hdf5", "xarray": "xarray", "h5netcdf": "xarray"}
+EXTRAS = {"h5py": "hdf5", "xarray": "xarray", "h5netcdf": "xarray", "pythonfmu": "fmu"}
 
 
 class MissingExtra(SalegError, ImportError):

@@ -72,10 +72,10 @@ def take_back(fleet, row, run):
 @compiled
 def has_misfired(tables):
     """Whether a misfire is among the events recorded."""
+    found = False
     for n in range(tables.filled[0].events):
-        if tables.events[n].kind == EVENT_MISFIRE:
-            return True
-    return False
+        found = found or tables.events[n].kind == EVENT_MISFIRE
+    return found
 
 
 @compiled

@@ -1,8 +1,8 @@
 """Environments of gymnasium for reinforcement learning: one engine, or many in one compiled loop.
 
 A step is a stroke, from dead centre to dead centre. Actions and observations go from -1 to +1.
-Once imported, ``gymnasium.make("saleg/Engine-v0", engine=...)`` makes one and ``gymnasium.make_vec``
-many.
+Once this is imported ``gymnasium.make("saleg/Engine-v0", engine=...)`` makes one and
+``gymnasium.make_vec`` many.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ except ImportError as error:
 
 #: Of a run only its latest cycles are kept.
 KEPT = {"keep_cycles": 11}
-METADATA = {"render_modes": []}
+METADATA: dict[str, Any] = {"render_modes": []}
 
 
-class EngineEnv(Env):  # type: ignore[misc]
+class EngineEnv(Env[Any, Any]):
     """An engine as an environment: a step is a stroke.
 
     Parameters
@@ -143,7 +143,7 @@ class EngineEnv(Env):  # type: ignore[misc]
         return self.task.observed(signals), reward, ended, cut, info
 
 
-class EngineVectorEnv(VectorEnv):  # type: ignore[misc]
+class EngineVectorEnv(VectorEnv[Any, Any, Any]):
     """Many engines as one environment: a step is a stroke of each, in one compiled loop.
 
     Parameters
@@ -254,7 +254,7 @@ class EngineVectorEnv(VectorEnv):  # type: ignore[misc]
             raise SalegError("the environment has not begun: call reset first")
         begins, goes = self._over, ~self._over
         for row in np.flatnonzero(begins):
-            plants.restart(row, _engine_of(self.task, self._randomise, self._chances[row]))
+            plants.restart(int(row), _engine_of(self.task, self._randomise, self._chances[row]))
         commands = self.task.commands(plants.signals, actions)
         if goes.any():
             plants.advance(commands, goes)

@@ -165,7 +165,9 @@ def usual_observations(engine: Engine) -> dict[str, tuple[float, float]]:
     }
 
 
-def checked_ranges(what: str, ranges: Any, known: tuple[str, ...]) -> dict[str, tuple[float, float]]:
+def checked_ranges(
+    what: str, ranges: Any, known: tuple[str, ...]
+) -> dict[str, tuple[float, float]]:
     """Ranges as numbers, if they make sense.
 
     Raises
@@ -184,6 +186,6 @@ def checked_ranges(what: str, ranges: Any, known: tuple[str, ...]) -> dict[str, 
         except (TypeError, ValueError):
             low = high = None
         if low is None or high is None or not -math.inf < low < high < math.inf:
-            raise TaskError(f"{what}['{name}'] = {shown(pair)}: must be two numbers, the least first")
+            raise TaskError(f"{what}['{name}'] = {shown(pair)}: must be least and greatest")
         found[name] = (low, high)
     return found
