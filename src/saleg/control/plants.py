@@ -56,7 +56,7 @@ class Plants:
     >>> for _ in range(30):
     ...     plants.advance(generator(plants.signals))
     >>> plants.signals.frequency.round()
-    array([45., 48.])
+    array([45., 50.])
     """
 
     def __init__(

@@ -15,6 +15,7 @@ from saleg.control.plant import Plant
 from saleg.control.plants import Plants
 from saleg.engine import Engine
 from saleg.errors import SalegError
+from saleg.export.extras import extra
 from saleg.laws.arguments import Commands
 from saleg.laws.control.base import ActuatorLaw
 from saleg.plugs.task import SETTINGS, Randomise, Ranges, Reward, Task
@@ -24,8 +25,9 @@ try:
     from gymnasium.utils import seeding
     from gymnasium.vector import AutoresetMode, VectorEnv
     from gymnasium.vector.utils import batch_space
-except ImportError as error:
-    raise SalegError('gymnasium is not installed: pip install "saleg[rl]"') from error
+except ImportError:
+    extra("gymnasium")  # says what to type
+    raise
 
 #: Of a run only its latest cycles are kept.
 KEPT = {"keep_cycles": 11}
@@ -63,7 +65,7 @@ class EngineEnv(Env[Any, Any]):
     >>> observation, info = env.reset(seed=1)
     >>> observation, reward, terminated, truncated, info = env.step([0.0])
     >>> round(info["stroke"], 3)
-    0.18
+    0.179
     """
 
     metadata = METADATA
@@ -124,6 +126,7 @@ class EngineEnv(Env[Any, Any]):
         -------
         observation : ndarray of float32, shape (k,)
         reward : float
+            In the unit of the reward function.
         terminated, truncated : bool
         info : dict
         """
@@ -172,7 +175,7 @@ class EngineVectorEnv(VectorEnv[Any, Any, Any]):
     >>> observations, info = envs.reset(seed=1)
     >>> observations, rewards, ended, cut, info = envs.step(np.zeros((3, 1)))
     >>> info["stroke"].round(3)
-    array([0.18, 0.18, 0.18])
+    array([0.179, 0.179, 0.179])
     """
 
     def __init__(
