@@ -1,6 +1,8 @@
 """Environments of gymnasium: what its checker says, one engine beside many, speed."""
 
 import importlib
+import subprocess
+import sys
 import time
 import warnings
 
@@ -10,6 +12,7 @@ import pytest
 import saleg
 from saleg.control import Plant, Plants, generator
 from saleg.errors import ControllerError
+from saleg.export import MissingExtra
 from saleg.laws import Actuators
 from saleg.plugs.task import TaskError
 from saleg.simulation.settings import SettingsError
@@ -159,3 +162,17 @@ def test_many_make_ten_times_the_strokes_of_one():
     ]
     one, many = np.median(turns, axis=0)
     assert 512 / many > 10.0 * 40 / one
+
+
+def test_without_gymnasium_the_message_says_what_to_type(monkeypatch):
+    monkeypatch.setitem(sys.modules, "gymnasium", None)
+    monkeypatch.delitem(sys.modules, "saleg.plugs.gymnasium")
+    with pytest.raises(MissingExtra, match=r'pip install "saleg\[rl\]"'):
+        importlib.import_module("saleg.plugs.gymnasium")
+
+
+def test_saleg_imports_no_plug():
+    code = (
+        "import sys, saleg, saleg.plugs\nassert not {'gymnasium', 'pythonfmu'} & set(sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
