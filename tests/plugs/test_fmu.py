@@ -136,6 +136,14 @@ def test_a_unit_says_how_the_motion_ended(path, tmp_path):
     assert any("the stroke fell to" in message for message in unit.messages)
 
 
+def test_a_name_python_knows_and_an_earlier_file(tmp_path):
+    path = to_fmu(BASE, tmp_path / "json.fmu", rtol=np.float64(1e-7))
+    with pytest.raises(SalegError, match=r"json\.fmu"):
+        to_fmu(BASE, path)
+    unit = Unit(to_fmu(BASE, path, overwrite=True), tmp_path / "unit")
+    assert unit.get("x") == pytest.approx([-0.09])
+
+
 def test_what_cannot_become_a_unit_is_named(tmp_path):
     with pytest.raises(UnknownPath, match="no number"):
         to_fmu(BASE, tmp_path / "Base.fmu", parameters=["friction"])

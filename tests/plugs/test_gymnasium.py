@@ -11,7 +11,7 @@ import pytest
 
 import saleg
 from saleg.control import Plant, Plants, generator
-from saleg.errors import ControllerError
+from saleg.errors import ControllerError, InvalidEngine
 from saleg.export import MissingExtra
 from saleg.laws import Actuators
 from saleg.plugs.task import TaskError
@@ -46,7 +46,7 @@ def test_the_checker_of_gymnasium_has_nothing_to_say():
 def test_many_plants_do_what_each_plant_does_to_the_last_bit():
     engines = [BASE, BASE.replace(moving_mass=2.6), BASE]
     actuators = Actuators(load_lag=0.02)
-    plants = Plants(engines, 0.3, actuators=actuators)
+    plants = Plants(engines, 0.3, actuators=actuators, history=1)  # which nobody keeps
     alone = [Plant(engine, 0.3, actuators=actuators) for engine in engines]
     weights = np.array([1.0, 0.9, 1.2])
     while plants.running.any():
@@ -129,6 +129,8 @@ def test_what_makes_no_sense_is_named():
         EngineEnv(BASE, actions={"load_wait": (0, 1)})
     with pytest.raises(TaskError, match="least and greatest"):
         EngineEnv(BASE, observations={"power": (1.0, 0.0)})
+    with pytest.raises(InvalidEngine, match=r"mass = -1\.0"):
+        EngineEnv(BASE.replace(moving_mass=-1.0))
     with pytest.raises(TaskError, match="strokes = 0"):
         EngineVectorEnv(BASE, 2, strokes=0)
     with pytest.raises(SettingsError, match=r"engines\[1\] has other laws"):

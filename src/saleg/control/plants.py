@@ -75,7 +75,8 @@ class Plants:
         self._duration, self._settings = duration, settings
         begun = {id(engine): self._begin(engine) for engine in engines}
         self._course = begun[id(engines[0])]
-        self._course.options["peaks"] = 0
+        for detail in ("peaks", "history"):
+            self._course.options[detail] = 0
         alone = search.stands_alone()
         self._kernel = compiled_engine(
             engines[0],

@@ -8,10 +8,12 @@ be installed; the library that calls Python comes from pythonfmu, for Linux and 
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,7 @@ from saleg.engine import Engine, check_engine
 from saleg.engine.paths import MAIN_INPUTS, get
 from saleg.errors import SalegError, UnknownPath, shown
 from saleg.export.extras import extra
+from saleg.files.atomic import new_file
 from saleg.quantities import is_number
 from saleg.simulation.settings import Settings
 
@@ -39,7 +42,12 @@ SETTINGS_FILE = "saleg.json"
 
 
 def to_fmu(
-    engine: Engine, path: str | Path, *, parameters: Sequence[str] | None = None, **settings: Any
+    engine: Engine,
+    path: str | Path,
+    *,
+    parameters: Sequence[str] | None = None,
+    overwrite: bool = False,
+    **settings: Any,
 ) -> Path:
     """Write an engine as a functional mock-up unit (FMI 2.0, co-simulation).
 
@@ -52,6 +60,8 @@ def to_fmu(
     parameters : sequence of str, optional
         Paths of the engine's numbers that the host may set before the run; what is usually told of
         an engine first unless given.
+    overwrite : bool
+        Replace an earlier file.
     **settings
         Further settings of :func:`saleg.simulate`.
 
@@ -64,8 +74,8 @@ def to_fmu(
     ------
     InvalidEngine, SettingsError, UnknownPath
         Naming what is wrong.
-    MissingExtra
-        If pythonfmu is not installed.
+    SalegError
+        If pythonfmu is not installed, or the file cannot be written or is there already.
 
     Notes
     -----
@@ -79,22 +89,25 @@ def to_fmu(
     """
     builder = extra("pythonfmu").FmuBuilder
     check_engine(engine)
-    Settings(1.0, **settings).checked()
+    known = Settings(1.0, **settings).checked()
     chosen = main_parameters(engine) if parameters is None else list(parameters)
     for name in chosen:
         if not is_number(get(engine, name)):
             raise UnknownPath(f"'{name}' is no number of this engine")
     path = Path(path)
-    if path.suffix != ".fmu" or not path.stem.isidentifier():
+    model = path.stem
+    if path.suffix != ".fmu" or not model.isidentifier() or iskeyword(model):
         raise SalegError(f"path = {shown(str(path))}: must be a name of letters and .fmu")
+    kept = {"parameters": chosen, "settings": {name: getattr(known, name) for name in settings}}
     with tempfile.TemporaryDirectory() as folder, _imports_from(folder):
-        script = Path(folder) / f"{path.stem}.py"
-        script.write_text(SCRIPT.format(name=path.stem))
+        script, built = Path(folder) / f"saleg_{model}.py", Path(folder) / "built.fmu"
+        script.write_text(SCRIPT.format(name=model), encoding="utf-8")
         files = [Path(folder) / ENGINE_FILE, Path(folder) / SETTINGS_FILE]
         files[0].write_text(engine.to_toml(), encoding="utf-8")
-        files[1].write_text(json.dumps({"parameters": chosen, "settings": settings}))
-        path.unlink(missing_ok=True)
-        builder.build_FMU(script, path, project_files=files, needsExecutionTool="true")
+        files[1].write_text(json.dumps(kept), encoding="utf-8")
+        builder.build_FMU(script, built, project_files=files, needsExecutionTool="true")
+        with new_file(path, overwrite) as made:
+            shutil.copyfile(built, made)
     return path
 
 

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from saleg.control import generator
-from saleg.engine import Engine
+from saleg.engine import Engine, check_engine
 from saleg.errors import SalegError, nearest, shown
 from saleg.laws.arguments import Commands, Signals
-from saleg.quantities import as_float
+from saleg.quantities import as_float, is_whole
 from saleg.simulation.initial_state import prepare
 
 #: Least and greatest value of a quantity, by name.
@@ -101,6 +101,7 @@ class Task:
 
     def __post_init__(self) -> None:
         """Fill in what is not given, and refuse what makes no sense."""
+        check_engine(self.engine)
         usual = usual_observations(self.engine)
         actions = {"load_weight": LOAD_WEIGHT} if self.actions is None else self.actions
         observations = usual if self.observations is None else self.observations
@@ -109,7 +110,7 @@ class Task:
             known = Commands._fields if name == "actions" else Signals._fields
             object.__setattr__(self, name, checked_ranges(name, value, known))
         object.__setattr__(self, "reward", reward)
-        if not isinstance(self.strokes, int) or self.strokes < 1:
+        if not is_whole(self.strokes, 1, 2**31 - 1):
             raise TaskError(f"strokes = {shown(self.strokes)}: must be a whole number >= 1")
 
     def commands(self, signals: Signals, action: np.ndarray) -> Commands:
