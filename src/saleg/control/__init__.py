@@ -30,6 +30,7 @@ from saleg.control.moments import (
 )
 from saleg.control.operating_line import NoOperatingLine, OperatingLine, operating_line
 from saleg.control.plant import Plant
+from saleg.control.plants import Plants
 from saleg.control.running import (
     fired_at,
     generator,
@@ -49,6 +50,7 @@ __all__ = [
     "OperatingLine",
     "OperatingMap",
     "Plant",
+    "Plants",
     "PowerAtDeadCentre",
     "Sensors",
     "demand_by_fuel",
