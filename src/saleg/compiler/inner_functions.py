@@ -11,8 +11,10 @@ This is numba's inside: :mod:`~saleg.compiler.machine_code` asks whether all of 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
+from llvmlite.binding import Linkage
 from numba.core import typed_passes, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder, Flags
@@ -33,7 +35,38 @@ NEEDLESS = frozenset(
 
 
 class InnerLibrary(JITCodeLibrary):
-    """Code of an inner function: linked into its callers' as it is, no machine code of its own."""
+    """Code of an inner function: handed on as it is, no machine code of its own.
+
+    What it calls is linked to it once its entry point asks for it, not into each of its callers.
+    """
+
+    def finalize(self) -> None:
+        """Nothing is linked and nothing optimised yet."""
+        self._raise_if_finalized()
+        self._finalize_final_module()
+
+    def _get_module_for_linking(self) -> Any:
+        """Module of the function and all it calls, callers first: else unused ones are dropped."""
+        self._ensure_finalized()
+        if self._shared_module is None:
+            self._shared_module = self._final_module.clone()
+            for library in self._all_called({self}):
+                inner = isinstance(library, InnerLibrary)
+                module = library._final_module if inner else library._get_module_for_linking()
+                self._shared_module.link_in(module, preserve=True)
+            for function in self._shared_module.functions:
+                if not function.is_declaration and function.linkage == Linkage.external:
+                    function.linkage = "linkonce_odr"
+        return self._shared_module
+
+    def _all_called(self, seen: set[Any]) -> Iterator[Any]:
+        """Libraries of all functions called from here, and by those."""
+        for library in self._linking_libraries:
+            if library not in seen:
+                seen.add(library)
+                yield library
+                if isinstance(library, InnerLibrary):
+                    yield from library._all_called(seen)
 
     @property
     def codegen(self) -> Any:
@@ -46,9 +79,6 @@ class InnerLibrary(JITCodeLibrary):
 
     def _optimize_functions(self, module: Any) -> None:
         module.data_layout = self._codegen._data_layout
-
-    def _optimize_final_module(self) -> None:
-        """Nothing: the entry point is optimised as a whole."""
 
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()

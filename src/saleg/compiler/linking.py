@@ -171,8 +171,7 @@ def _library(context: Any, bitcode: bytes, laws: Mapping[str, Any]) -> InnerLibr
             _define(context, module, slot, *law)
     library.add_llvm_module(binding.parse_bitcode(bitcode))
     library.add_ir_module(module)
-    library.finalize()
-    for function in library._final_module.functions:
+    for function in library._get_module_for_linking().functions:
         if function.name.startswith(PREFIX):
             function.linkage = "internal"
     return library
