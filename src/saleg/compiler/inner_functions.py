@@ -12,10 +12,11 @@ This is numba's inside: :mod:`~saleg.compiler.machine_code` asks whether all of 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any
 
 from llvmlite.binding import Linkage
-from numba.core import typed_passes, untyped_passes
+from numba.core import typed_passes, types, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder, Flags
 
@@ -102,12 +103,56 @@ class QuickFlags(Flags):
         return hash(tuple(self._values))
 
 
+class QuickArguments(tuple[Any, ...]):
+    """Types of arguments; numba writes them out, records and all, for every pass."""
+
+    def __str__(self) -> str:
+        return f"{len(self)} arguments"
+
+
+class QuickTyping:
+    """Typing of calls that remembers builtin functions by what they are called with.
+
+    Numba tries all it knows of an operator anew every time it meets one.
+
+    Parameters
+    ----------
+    context : numba's typing context
+        All else is left to it.
+    """
+
+    def __init__(self, context: Any):
+        self._context = context
+        self._known: dict[Any, Any] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._context, name)
+
+    def resolve_function_type(self, function: Any, arguments: Any, named: Any) -> Any:
+        """Signature of a call."""
+        if named or not isinstance(function, types.Function):
+            return self._context.resolve_function_type(function, arguments, named)
+        call = function, tuple(arguments)
+        if call not in self._known:
+            self._known[call] = self._context.resolve_function_type(function, arguments, named)
+        return self._known[call]
+
+
+@lru_cache(maxsize=4)
+def quick_typing(context: Any) -> QuickTyping:
+    """The same typing context, with what it knows of calls."""
+    return QuickTyping(context)
+
+
 class InnerCompiler(CompilerBase):
     """Compiler of an inner function."""
 
     def __init__(self, *arguments: Any):
         super().__init__(*arguments)
-        self.state.flags = QuickFlags(self.state.flags)
+        state = self.state
+        state.typingctx = quick_typing(state.typingctx)
+        state.args = QuickArguments(state.args)
+        state.flags = QuickFlags(state.flags)
 
     def define_pipelines(self) -> list[Any]:
         """Passes of numba's own, but for the needless ones."""
