@@ -13,10 +13,10 @@ from saleg.compiler.controllers import control_of, nobody
 from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
-from saleg.compiler.source import fingerprint, is_ours
 from saleg.compiler.needs import Needs
 from saleg.compiler.shared_kernel import shared_kernel
 from saleg.compiler.slot_text import methods_text
+from saleg.compiler.source import fingerprint, is_ours
 from saleg.compiler.text import INTEGRATOR, compose, compose_laws
 from saleg.kernel.tuples import Control
 from saleg.laws import (

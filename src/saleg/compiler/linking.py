@@ -93,7 +93,7 @@ def _called(context: Any, builder: Any, function: Any, signature: Any, values: A
 
 def _cast(context: Any, builder: Any, value: Any, given: Any, wanted: Any) -> Any:
     """A number as a number of another type; a tuple, named or not, number by number."""
-    if not isinstance(wanted, types.BaseTuple):
+    if isinstance(wanted, (types.Number, types.Record)):
         return context.cast(builder, value, given, wanted)
     parts = zip(cgutils.unpack_tuple(builder, value), given, wanted, strict=True)
     items = [context.cast(builder, *part) for part in parts]

@@ -38,13 +38,17 @@ ADDRESS_NEEDS = (
 
 #: What :mod:`~saleg.compiler.inner_functions` takes.
 INNER_NEEDS = (
+    "llvmlite.binding:Linkage.external",
+    "numba.core.codegen:JITCodeLibrary._get_module_for_linking",
+    "numba.core.codegen:JITCodeLibrary._raise_if_finalized",
     "numba.core.codegen:JITCodeLibrary._optimize_functions",
-    "numba.core.codegen:JITCodeLibrary._optimize_final_module",
     "numba.core.codegen:JITCodeLibrary._finalize_final_module",
     "numba.core.codegen:JITCodeLibrary._finalize_dynamic_globals",
     "numba.core.compiler:CompilerBase.define_pipelines",
     "numba.core.compiler:DefaultPassBuilder.define_nopython_pipeline",
     "numba.core.compiler:Flags.values",
+    "numba.core.types:Function",
+    "numba.core.typing.context:BaseContext.resolve_function_type",
     "numba.core.typed_passes:DumpParforDiagnostics",
     "numba.core.typed_passes:NopythonRewrites",
     "numba.core.untyped_passes:FindLiterallyCalls",
@@ -63,8 +67,9 @@ LINKING_NEEDS = (
     "numba.core.callconv:CPUCallConv._get_arg_packer",
     "numba.core.callconv:CPUCallConv.return_status_propagate",
     "numba.core.cgutils:get_or_insert_function",
-    "numba.core.codegen:JITCodeLibrary._get_module_for_linking",
+    "numba.core.codegen:JITCodeLibrary.add_ir_module",
     "numba.core.codegen:JITCodeLibrary.add_llvm_module",
+    "numba.core.codegen:JITCodeLibrary.create_ir_module",
     "numba.core.compiler_lock:global_compiler_lock",
     "numba.core.types:NamedUniTuple",
 )

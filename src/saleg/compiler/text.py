@@ -1,7 +1,7 @@
 """The text of a composed module: modules of the kernel as they stand, slots filled with laws.
 
-Written anew are only the slots (:mod:`~saleg.compiler.slot_text`), what the laws need (:mod:`~saleg.compiler.needs`),
-and the step of the adaptive pair (:mod:`~saleg.compiler.unrolled`).
+Written anew are only the slots (:mod:`~saleg.compiler.slot_text`), what the laws need
+(:mod:`~saleg.compiler.needs`), and the step of the adaptive pair (:mod:`~saleg.compiler.unrolled`).
 """
 
 from __future__ import annotations
