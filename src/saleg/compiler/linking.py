@@ -113,9 +113,11 @@ def lowered(kernel: Any, run: Any) -> bytes:
     found = kernel.overloads[(run,)]
     with global_compiler_lock:
         module = found.library._get_module_for_linking().clone()
-    for function in module.functions:
-        if not function.is_declaration:
-            function.linkage = "internal"
+    # All but the entry is its own affair: two kernels in one process share no function, and numba
+    # looks for no environment of a module that is not there next time.
+    for item in (*module.functions, *module.global_variables):
+        if not item.is_declaration:
+            item.linkage = "internal"
     entry = module.get_function(found.fndesc.llvm_func_name)
     entry.name, entry.linkage = ENTRY, "external"
     bitcode: bytes = module.as_bitcode()
