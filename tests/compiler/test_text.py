@@ -10,7 +10,7 @@ from saleg import LawError
 from saleg.compiler import machine_code, search
 from saleg.compiler.module import load
 from saleg.compiler.text import INTEGRATOR, REFERENCE, compose, compose_search, own_text
-from saleg.laws.base import CHAMBER_SLOTS
+from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +20,7 @@ def text(base):
 
 def classes_of(engine):
     sides = [type(side.laws[slot]) for side in engine.chambers for slot in CHAMBER_SLOTS]
-    rest = [engine.springs, engine.friction, engine.alternator, saleg.laws.Actuators()]
+    rest = [*(getattr(engine, slot) for slot in ENGINE_SLOTS), saleg.laws.Actuators()]
     return [*sides, *map(type, rest)]
 
 
