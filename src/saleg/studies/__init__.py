@@ -20,6 +20,12 @@ from saleg.studies.convergence import (
 )
 from saleg.studies.elasticities import MAIN_FIGURES, elasticities
 from saleg.studies.printed import beside_thesis
+from saleg.studies.published_machines import (
+    Compared,
+    Explanation,
+    compare_published,
+    explain_published,
+)
 
 __all__ = [
     "DELAYED",
@@ -29,12 +35,16 @@ __all__ = [
     "TABLE_4_TIMES",
     "UNITS",
     "WARM_UP",
+    "Compared",
+    "Explanation",
     "StudyError",
     "beside_thesis",
     "compare",
+    "compare_published",
     "delay_study",
     "delayed",
     "elasticities",
+    "explain_published",
     "sensitivity",
     "solver_study",
     "step_size_study",

@@ -1,0 +1,190 @@
+"""Published machines beside ours, and what their sources leave open that would explain the rest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from functools import cache
+from itertools import pairwise
+from typing import NamedTuple
+
+from saleg.checks import a, checked
+from saleg.machines import OpenQuantity, Published, PublishedMachine
+from saleg.steady.solver import DEFAULT_TOLERANCE, found_steady_state
+
+#: Points of the range of an open quantity at which engines are solved, beside the one assumed:
+#: shares of the way from there to either end.
+SHARES = (0.5, 1.0)
+#: By how much another result may become worse where a quantity is said to explain one [-].
+WORSE = 0.02
+
+
+class Compared(NamedTuple):
+    """A published result beside ours.
+
+    Attributes
+    ----------
+    result : Published
+    ours : float
+        Our value [in the SI unit of the figure]; NaN where the engine does not run steadily.
+    deviation : float
+        Over the published value [-].
+    """
+
+    result: Published
+    ours: float
+    deviation: float
+
+
+class Explanation(NamedTuple):
+    """Open quantity that brings a result nearest to what is published, all else as assumed.
+
+    Attributes
+    ----------
+    result : Published
+    path : str
+        The quantity; empty where none brings it nearer.
+    value : float
+        Its value there [in the unit of the field].
+    deviation : float
+        Deviation of the result there [-].
+    worst : str
+        Label of the other result that becomes worse by most; empty for none.
+    worst_deviation : float
+        Its deviation there [-].
+    explains : bool
+        Whether the quantity alone explains the result: it is met, and no other becomes worse by
+        more than two percent.
+    """
+
+    result: Published
+    path: str
+    value: float
+    deviation: float
+    worst: str
+    worst_deviation: float
+    explains: bool
+
+
+class _Solved:
+    """Results of a machine with some of its numbers changed; each engine is solved once."""
+
+    def __init__(self, machine: PublishedMachine) -> None:
+        self.machine = machine
+        self._figures = cache(self._solve)
+
+    def deviation(self, result: Published, changes: Mapping[str, float]) -> float:
+        """Deviation of a result [-]; NaN without a steady state."""
+        return result.deviation(self.value(result, changes))
+
+    def value(self, result: Published, changes: Mapping[str, float]) -> float:
+        """Our value of a result [in the SI unit of its figure]."""
+        value = self._figure(result.figure, {**changes, **result.at})
+        if result.over is None:
+            return value
+        return value / self._figure(result.figure, {**changes, **result.over})
+
+    def _figure(self, name: str, changes: Mapping[str, float]) -> float:
+        return self._figures(tuple(sorted(changes.items()))).get(name, math.nan)
+
+    def _solve(self, changes: tuple[tuple[str, float], ...]) -> dict[str, float]:
+        engine = self.machine.engine().replace(**dict(changes))
+        found = found_steady_state(engine, DEFAULT_TOLERANCE)
+        return found.quick_performance.to_dict() if found.found else {}
+
+
+@checked(machine=a(PublishedMachine))
+def compare_published(machine: PublishedMachine) -> list[Compared]:
+    """Published results of a machine beside ours.
+
+    Parameters
+    ----------
+    machine : saleg.machines.PublishedMachine
+
+    Returns
+    -------
+    list of Compared
+        In the order in which they are published.
+
+    Examples
+    --------
+    >>> import saleg
+    >>> rows = compare_published(saleg.machines.PUBLISHED["newcastle"])
+    >>> rows[0].result.label, abs(rows[0].deviation) < 0.001
+    ('stroke', True)
+    """
+    solved = _Solved(machine)
+    values = [solved.value(result, {}) for result in machine.published]
+    return [
+        Compared(result, value, result.deviation(value))
+        for result, value in zip(machine.published, values, strict=True)
+    ]
+
+
+@checked(machine=a(PublishedMachine))
+def explain_published(machine: PublishedMachine) -> list[Explanation]:
+    """Open quantities of a machine that would explain where our results deviate.
+
+    Each is taken through its plausible range with all else as assumed, and the engine solved at
+    four points beside the one assumed; where a result meets the published value between two of
+    them, once more there.
+
+    Parameters
+    ----------
+    machine : saleg.machines.PublishedMachine
+
+    Returns
+    -------
+    list of Explanation
+        For each result to be met.
+    """
+    solved = _Solved(machine)
+    return [_explained(solved, result) for result in machine.published if not result.held_by]
+
+
+def _explained(solved: _Solved, result: Published) -> Explanation:
+    """The best of all candidates: what explains it, else what comes nearest."""
+    base = Explanation(result, "", math.nan, solved.deviation(result, {}), "", math.nan, False)
+    found = [base]
+    for quantity in solved.machine.open_quantities:
+        for value in _candidates(solved, result, quantity):
+            found.append(_at(solved, result, quantity.path, value))
+    known = [one for one in found if not math.isnan(one.deviation)] or [base]
+    return min(known, key=lambda one: (not one.explains, abs(one.deviation), one.path))
+
+
+def _candidates(solved: _Solved, result: Published, quantity: OpenQuantity) -> Iterator[float]:
+    """Values of a quantity that are solved for, and those at which a result should be met."""
+    path = quantity.path
+    points = _points(quantity, float(solved.machine.engine().get(path)))
+    off = [solved.deviation(result, {path: value}) for value in points]
+    yield from points
+    for (low, before), (high, after) in pairwise(zip(points, off, strict=True)):
+        if before * after < 0.0:
+            yield low + (high - low) * before / (before - after)
+
+
+def _points(quantity: OpenQuantity, assumed: float) -> list[float]:
+    """Values of a quantity, rising, the one assumed among them."""
+    ends = (quantity.low, quantity.high)
+    beside = {assumed + share * (end - assumed) for end in ends for share in SHARES}
+    return sorted(beside | {assumed})
+
+
+def _at(solved: _Solved, result: Published, path: str, value: float) -> Explanation:
+    """A result with one quantity changed, and the other result that suffers most."""
+    changes = {path: value}
+    off = solved.deviation(result, changes)
+    worst, worst_deviation, most = "", math.nan, WORSE
+    for other in solved.machine.published:
+        there = solved.deviation(other, changes)
+        worse = _size(there) - _size(solved.deviation(other, {}))
+        if other is not result and worse > most:
+            worst, worst_deviation, most = other.label, there, worse
+    explains = abs(off) <= WORSE and not worst
+    return Explanation(result, path, value, off, worst, worst_deviation, explains)
+
+
+def _size(deviation: float) -> float:
+    """Magnitude of a deviation [-]; infinite where the engine does not run."""
+    return math.inf if math.isnan(deviation) else abs(deviation)
