@@ -78,8 +78,6 @@ MACHINE = PublishedMachine(
         "moving mass 22 kg; boosted to 1.5 bar",
     ),
     open_quantities=(
-        OpenQuantity("alternator.load_constant", 400.0, 700.0, "stroke of 150 mm"),
-        OpenQuantity("right.pressure", 2.8e5, 6e5, "compression ratio of 15"),
         OpenQuantity("right.half_stroke", 0.080, 0.12, "as long as the cylinder"),
         OpenQuantity("right.bore", 0.115, 0.15, "as wide as the cylinder"),
         OpenQuantity("alternator.efficiency", 0.9, 1.0, "as in the dissertation's engines"),
@@ -93,8 +91,8 @@ MACHINE = PublishedMachine(
         OpenQuantity("equivalence_ratio", 0.35, 0.8, "fuel that the published results imply"),
     ),
     published=(
-        Published("stroke", STROKE, held_by="load"),
-        Published("compression_ratio", RATIO, held_by="bounce pressure"),
+        Published("stroke", STROKE, held_by="alternator.load_constant"),
+        Published("compression_ratio", RATIO, held_by="right.pressure"),
         Published("frequency", FREQUENCY),
         Published("power", POWER),
         Published("efficiency", EFFICIENCY),

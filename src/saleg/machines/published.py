@@ -27,7 +27,8 @@ class Published:
     over : mapping of str to float, optional
         Numbers of the engine whose figure the ratio is taken over.
     held_by : str
-        What the source leaves open and the value was used to set; empty for a result to be met.
+        Path of what the source leaves open and the value was used to set; empty for a result to be
+        met.
     """
 
     figure: str
@@ -101,6 +102,11 @@ class PublishedMachine:
     given: tuple[str, ...]
     open_quantities: tuple[OpenQuantity, ...]
     published: tuple[Published, ...]
+
+    @property
+    def held(self) -> tuple[Published, ...]:
+        """Results that were used to set what the source leaves open."""
+        return tuple(item for item in self.published if item.held_by)
 
     @property
     def frequencies(self) -> tuple[float, ...]:

@@ -50,7 +50,7 @@ def ulsan(stiffness: float = 2.9e3) -> Engine:
         intake=Intake(1e5, assumed.drawn_temperature(TEMPERATURE, PRESSURE_RATIO)),
         heat_transfer=Hohenberg(a=130.0),
         heat_release=Wiebe(combustion_duration=3e-3),
-        ignition=SparkAtClearance(clearance=3e-3),
+        ignition=SparkAtClearance(clearance=4e-3),
         gas_exchange=assumed.ports(BORE, PORT, 2.0 * HALF_STROKE),
         supply=assumed.crankcase(BORE, HALF_STROKE, PRESSURE_RATIO),
         leak=RingLeak(gap=1e-8),
@@ -60,7 +60,7 @@ def ulsan(stiffness: float = 2.9e3) -> Engine:
         cylinder,
         springs=LinearSprings(stiffness=stiffness),
         friction=ViscousFriction(coefficient=12.0),
-        alternator=LinearLoad(load_constant=80.0, efficiency=0.9, regulator_gain=0.0),
+        alternator=LinearLoad(load_constant=76.3, efficiency=0.9, regulator_gain=0.0),
         name="ulsan",
     )
     return fuels.fill(engine, fuels.propane, equivalence_ratio=1.0)
@@ -79,10 +79,10 @@ MACHINE = PublishedMachine(
         "heat release of 3 ms (in the dissertation's simulation)",
     ),
     open_quantities=(
-        OpenQuantity("alternator.load_constant", 40.0, 120.0, "stroke of nine tenths"),
+        OpenQuantity("alternator.load_constant", 40.0, 120.0, "stroke of 0.9 of the maximum"),
         OpenQuantity("alternator.efficiency", 0.4, 0.95, "small machine with losses in its coils"),
         OpenQuantity("friction.coefficient", 3.0, 40.0, "9 to 15 N s/m in the dissertation"),
-        OpenQuantity("ignition.clearance", 1.8e-3, 6e-3, "spark some 1 ms before dead centre"),
+        OpenQuantity("ignition.clearance", 2e-3, 8e-3, "spark some 1.3 ms before dead centre"),
         OpenQuantity("heat_release.combustion_duration", 2e-3, 6e-3, "used in the dissertation"),
         OpenQuantity("combustion_efficiency", 0.5, 1.0, "as in the dissertation's engines"),
         OpenQuantity("heat_transfer.a", 65.0, 390.0, "Hohenberg's own constant"),

@@ -72,7 +72,7 @@ MACHINE = PublishedMachine(
         "petrol; 25 J of heat a stroke in 2.85 ms; charge of 1.35 bar and 341 K",
     ),
     open_quantities=(
-        OpenQuantity("alternator.load_constant", 30.0, 80.0, "stroke of nine tenths"),
+        OpenQuantity("alternator.load_constant", 30.0, 80.0, "stroke of 0.9 of the maximum"),
         OpenQuantity("alternator.efficiency", 0.5, 0.95, "small machine with losses in its coils"),
         OpenQuantity("friction.coefficient", 3.0, 40.0, "9 to 15 N s/m in the dissertation"),
         OpenQuantity("ignition.clearance", 2.9e-3, 8e-3, "spark some 2 ms before dead centre"),

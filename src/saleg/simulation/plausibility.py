@@ -155,10 +155,11 @@ def _judged(
     engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray
 ) -> Iterator[tuple[Any, str, Any, float, str, str]]:
     """Whether each figure is beyond its limit, and the fields of :class:`Implausible`."""
-    with np.errstate(all="ignore"):
-        for name, unit, limit, reason, value_of in LIMITS:
-            value = value_of({key: np.asarray(each) for key, each in figures.items()})
-            yield value > limit, name, value, limit, unit, reason
+    arrays = {name: np.asarray(figure) for name, figure in figures.items()}
+    for name, unit, limit, reason, value_of in LIMITS:
+        with np.errstate(all="ignore"):
+            value = value_of(arrays)
+        yield value > limit, name, value, limit, unit, reason
     for side, chamber in enumerate(engine.chambers):
         if engine.has_combustion and not isinstance(chamber, CombustionChamber):
             peak = strokes["peak_pressure"][..., side].max(axis=-1, initial=0.0) / 1e5

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
+import numpy as np
+
 from saleg.checks import a, checked
+from saleg.engine import Engine
+from saleg.errors import InvalidEngine
 from saleg.machines import OpenQuantity, Published, PublishedMachine
 from saleg.steady.solver import DEFAULT_TOLERANCE, found_steady_state
 
@@ -89,8 +93,38 @@ class _Solved:
 
     def _solve(self, changes: tuple[tuple[str, float], ...]) -> dict[str, float]:
         engine = self.machine.engine().replace(**dict(changes))
-        found = found_steady_state(engine, DEFAULT_TOLERANCE)
-        return found.quick_performance.to_dict() if found.found else {}
+        if changes and self.machine.held:
+            held = _held(engine, self.machine.held)
+            return {} if held is None else _figures(held)
+        return _figures(engine)
+
+
+def _figures(engine: Engine) -> dict[str, float]:
+    """Figures of the steady state of an engine; none without one."""
+    found = found_steady_state(engine, DEFAULT_TOLERANCE)
+    return found.quick_performance.to_dict() if found.found else {}
+
+
+def _held(engine: Engine, held: Sequence[Published]) -> Engine | None:
+    """Engine with what its source left open set anew, so that all held results are met."""
+    from scipy.optimize import root
+
+    def with_factors(logarithms: np.ndarray) -> Engine:
+        factors = zip(held, np.exp(logarithms), strict=True)
+        return engine.replace(
+            **{one.held_by: float(engine.get(one.held_by) * factor) for one, factor in factors}
+        )
+
+    def miss(logarithms: np.ndarray) -> list[float]:
+        figures = _figures(with_factors(logarithms))
+        return [one.deviation(figures.get(one.figure, math.inf)) for one in held]
+
+    with np.errstate(all="ignore"):
+        try:
+            solved = root(miss, np.zeros(len(held)), options={"eps": 1e-6, "maxfev": 40})
+        except InvalidEngine:  # on its way the search left what an engine can be
+            return None
+    return with_factors(solved.x) if np.abs(solved.fun).max() < 1e-3 else None
 
 
 @checked(machine=a(PublishedMachine))
@@ -127,7 +161,7 @@ def explain_published(machine: PublishedMachine) -> list[Explanation]:
 
     Each is taken through its plausible range with all else as assumed, and the engine solved at
     four points beside the one assumed; where a result meets the published value between two of
-    them, once more there.
+    them, once more there. What is set by a published result is set anew each time.
 
     Parameters
     ----------
