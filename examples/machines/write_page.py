@@ -56,10 +56,11 @@ print(saleg.steady_state(saleg.machines.wvu()).validity)
 Orange on the right is Ulsan with 30 % of its fuel burnt, an earlier spark and a lighter load.
 
 Which open quantity would explain a deviation is computed: each is taken through its range with all
-else as assumed (`saleg.studies.explain_published`, which solves for four engines per quantity). It
-*explains* a result that it brings to within 2 % without making any other worse by more; else the
-table has the nearest that a single quantity comes, and what that costs. What a published result was
-used to set is set anew each time. This page is written by `examples/machines/write_page.py`.
+else as assumed (`saleg.studies.explain_published`, which solves for four engines per quantity);
+"range" is what becomes of our result meanwhile. A quantity explains a result that it brings to
+within 2 % without making any other worse by more. Where none does, the table has the nearest that a
+single quantity comes, and what that costs. What a published result was used to set is set anew each
+time. This page is written by `examples/machines/write_page.py`.
 """
 
 
@@ -86,12 +87,16 @@ def section(machine, compared, explanations) -> list[str]:
     parts = [f"## {machine.title}\n", f"`{call}`. {kind}: {machine.source}. Given:\n"]
     parts += [f"- {text}" for text in machine.given]
     told = {one.result.label: one for one in explanations}
-    parts += ["", "| result | published | ours | deviation | what would explain it |"]
-    parts.append("|---|---|---|---|---|")
+    parts += ["", "| result | published | ours | range | deviation | what would explain it |"]
+    parts.append("|---|---|---|---|---|---|")
     for result, ours, off in compared:
-        why = f"set by `{result.held_by}`" if result.held_by else words(told[result.label], off)
+        why, span = f"set by `{result.held_by}`", ""
+        if not result.held_by:
+            one = told[result.label]
+            why = words(one, off)
+            span = f"{shown(result, one.least)} to {shown(result, one.greatest)}"
         parts.append(
-            f"| {result.label} | {shown(result, result.value)} | {shown(result, ours)} "
+            f"| {result.label} | {shown(result, result.value)} | {shown(result, ours)} | {span} "
             f"| {percent(off)} | {why} |"
         )
     parts += ["", "| open quantity | assumed | range | why |", "|---|---|---|---|"]
@@ -106,17 +111,21 @@ def words(one, off) -> str:
     """What would explain a deviation."""
     if abs(off) <= 0.02:
         return "within 2 %"
-    if not one.path:
+    if one.explaining:
+        return "any of " * (len(one.explaining) > 1) + ", ".join(map(at, one.explaining))
+    if one.nearest is None:
         return "no single quantity brings it nearer"
-    at = f"`{one.path}` = {one.value:.3g}"
-    if one.explains:
-        return f"{at} explains it"
-    reached = "meets it" if abs(one.deviation) <= 0.02 else f"leaves {percent(one.deviation)}"
-    off_by = f"is then off by {percent(one.worst_deviation)}"
-    cost = "no longer runs" if math.isnan(one.worst_deviation) else off_by
-    return f"no single quantity; {at} {reached}" + (
-        f", but {one.worst} {cost}" if one.worst else ""
-    )
+    cause = one.nearest
+    reached = "meets it" if abs(cause.deviation) <= 0.02 else f"leaves {percent(cause.deviation)}"
+    off_by = f"is then off by {percent(cause.worst_deviation)}"
+    cost = "no longer runs" if math.isnan(cause.worst_deviation) else off_by
+    cost = f", but {cause.worst} {cost}" if cause.worst else ""
+    return f"no single quantity; {at(cause)} {reached}{cost}"
+
+
+def at(cause) -> str:
+    """A quantity and its value."""
+    return f"`{cause.path}` = {cause.value:.3g}"
 
 
 def shown(result, value) -> str:
@@ -240,7 +249,7 @@ def deviations(ax, found) -> None:
     bars = ax.barh(labels, values, color=[colours[name] for name, _ in rows])
     ax.bar_label(bars, [f"{value:+.1f} %" for value in values], padding=4, fontsize=9)
     ax.axvline(0.0, color="k", linewidth=0.8)
-    ax.margins(x=0.25)
+    ax.margins(x=0.3)
     ax.set_xlabel("deviation from the published value [%]")
     ax.set_title("Published results")
 

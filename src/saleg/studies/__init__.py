@@ -21,6 +21,7 @@ from saleg.studies.convergence import (
 from saleg.studies.elasticities import MAIN_FIGURES, elasticities
 from saleg.studies.printed import beside_thesis
 from saleg.studies.published_machines import (
+    Cause,
     Compared,
     Explanation,
     compare_published,
@@ -35,6 +36,7 @@ __all__ = [
     "TABLE_4_TIMES",
     "UNITS",
     "WARM_UP",
+    "Cause",
     "Compared",
     "Explanation",
     "StudyError",

@@ -40,34 +40,55 @@ class Compared(NamedTuple):
     deviation: float
 
 
-class Explanation(NamedTuple):
-    """Open quantity that brings a result nearest to what is published, all else as assumed.
+class Cause(NamedTuple):
+    """Value of an open quantity that brings a result nearest to what is published.
 
     Attributes
     ----------
-    result : Published
     path : str
-        The quantity; empty where none brings it nearer.
+        The quantity.
     value : float
         Its value there [in the unit of the field].
     deviation : float
         Deviation of the result there [-].
     worst : str
-        Label of the other result that becomes worse by most; empty for none.
+        Label of the other result that becomes worse by most; empty where none becomes worse by
+        more than two percent.
     worst_deviation : float
         Its deviation there [-].
-    explains : bool
-        Whether the quantity alone explains the result: it is met, and no other becomes worse by
-        more than two percent.
     """
 
-    result: Published
     path: str
     value: float
     deviation: float
     worst: str
     worst_deviation: float
-    explains: bool
+
+    @property
+    def explains(self) -> bool:
+        """Whether the quantity alone explains the result: met within 2 %, and nothing worse."""
+        return abs(self.deviation) <= WORSE and not self.worst
+
+
+class Explanation(NamedTuple):
+    """What open quantities do to a result, one at a time, all else as assumed.
+
+    Attributes
+    ----------
+    result : Published
+    least, greatest : float
+        Ends of our value over all ranges [in the SI unit of the figure].
+    explaining : tuple of Cause
+        Quantities that alone explain the result.
+    nearest : Cause or None
+        The one that brings it nearest; None where no quantity brings it nearer.
+    """
+
+    result: Published
+    least: float
+    greatest: float
+    explaining: tuple[Cause, ...]
+    nearest: Cause | None
 
 
 class _Solved:
@@ -177,14 +198,19 @@ def explain_published(machine: PublishedMachine) -> list[Explanation]:
 
 
 def _explained(solved: _Solved, result: Published) -> Explanation:
-    """The best of all candidates: what explains it, else what comes nearest."""
-    base = Explanation(result, "", math.nan, solved.deviation(result, {}), "", math.nan, False)
-    found = [base]
+    """What each quantity does to a result."""
+    causes, seen = [], [solved.value(result, {})]
     for quantity in solved.machine.open_quantities:
-        for value in _candidates(solved, result, quantity):
-            found.append(_at(solved, result, quantity.path, value))
-    known = [one for one in found if not math.isnan(one.deviation)] or [base]
-    return min(known, key=lambda one: (not one.explains, abs(one.deviation), one.path))
+        values = list(_candidates(solved, result, quantity))
+        seen += [solved.value(result, {quantity.path: value}) for value in values]
+        tried = [_at(solved, result, quantity.path, value) for value in values]
+        causes.append(min(tried, key=lambda one: (not one.explains, _size(one.deviation))))
+    nearest = min(causes, key=lambda one: _size(one.deviation), default=None)
+    if nearest is not None and _size(nearest.deviation) >= _size(solved.deviation(result, {})):
+        nearest = None
+    explaining = tuple(one for one in causes if one.explains)
+    least, greatest = float(np.nanmin(seen)), float(np.nanmax(seen))
+    return Explanation(result, least, greatest, explaining, nearest)
 
 
 def _candidates(solved: _Solved, result: Published, quantity: OpenQuantity) -> Iterator[float]:
@@ -205,7 +231,7 @@ def _points(quantity: OpenQuantity, assumed: float) -> list[float]:
     return sorted(beside | {assumed})
 
 
-def _at(solved: _Solved, result: Published, path: str, value: float) -> Explanation:
+def _at(solved: _Solved, result: Published, path: str, value: float) -> Cause:
     """A result with one quantity changed, and the other result that suffers most."""
     changes = {path: value}
     off = solved.deviation(result, changes)
@@ -215,8 +241,7 @@ def _at(solved: _Solved, result: Published, path: str, value: float) -> Explanat
         worse = _size(there) - _size(solved.deviation(other, {}))
         if other is not result and worse > most:
             worst, worst_deviation, most = other.label, there, worse
-    explains = abs(off) <= WORSE and not worst
-    return Explanation(result, path, value, off, worst, worst_deviation, explains)
+    return Cause(path, value, off, worst, worst_deviation)
 
 
 def _size(deviation: float) -> float:
