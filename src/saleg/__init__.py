@@ -33,6 +33,7 @@ from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.plausibility import Implausible
 from saleg.simulation.run import Run
 from saleg.simulation.scavenging import Scavenging
+from saleg.simulation.shaking import Shaking
 from saleg.simulation.validity import NearestMachine, ValidityReport
 from saleg.status import Status
 from saleg.steady.solver import Effort, SteadyState, steady_state
@@ -80,6 +81,7 @@ __all__ = [
     "SalegWarning",
     "Scavenging",
     "SealedCylinder",
+    "Shaking",
     "Status",
     "SteadyState",
     "Translator",

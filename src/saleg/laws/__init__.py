@@ -13,6 +13,7 @@ from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, 
 from saleg.laws.base import (
     Alternator,
     FlowExchange,
+    Frame,
     Friction,
     GasExchange,
     GasProperties,
@@ -43,6 +44,7 @@ from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.earlier_names import accept_earlier_names
+from saleg.laws.frame import FixedFrame, MountedFrame
 from saleg.laws.friction import (
     BlairViscousFriction,
     ConstantFriction,
@@ -113,10 +115,12 @@ __all__ = [
     "DoubleWiebe",
     "Drive",
     "EndStops",
+    "FixedFrame",
     "FixedWall",
     "FlowExchange",
     "FluxProfile",
     "ForceMap",
+    "Frame",
     "Friction",
     "FrictionShare",
     "FuelControl",
@@ -146,6 +150,7 @@ __all__ = [
     "MixtureGas",
     "Motion",
     "MotorControl",
+    "MountedFrame",
     "NeverMotored",
     "NoFriction",
     "NoFuel",
