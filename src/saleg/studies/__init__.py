@@ -27,6 +27,7 @@ from saleg.studies.published_machines import (
     compare_published,
     explain_published,
 )
+from saleg.studies.variability import VARIABILITY_UNITS, variability
 
 __all__ = [
     "DELAYED",
@@ -35,6 +36,7 @@ __all__ = [
     "TABLE_2_STEPS",
     "TABLE_4_TIMES",
     "UNITS",
+    "VARIABILITY_UNITS",
     "WARM_UP",
     "Cause",
     "Compared",
@@ -52,5 +54,6 @@ __all__ = [
     "step_size_study",
     "stop_time_study",
     "tolerance_study",
+    "variability",
     "work_precision",
 ]
