@@ -80,6 +80,21 @@ def test_a_dead_centre_is_held_under_15_percent_scatter_of_fuel(name):
     assert holding.failures == []
 
 
+def test_springs_halve_the_scatter_of_a_held_dead_centre_and_not_that_of_the_work():
+    """As docs/dead_centre.md says beside what is published."""
+    scatter, work = [], []
+    for stiffness in (0.0, 60e3):
+        engine = saleg.machines.thesis_base().replace(**{"spring.stiffness": stiffness})
+        steady = saleg.steady_state(engine)
+        holding = DeadCentreControl(steady, Feedback(scatter=0.1))
+        run = control.simulate(engine, ScatteredFuel(holding, 0.15, 1), 4.0)
+        done = run.strokes["gas_work"][run.strokes["t"] > 1.0].sum(axis=1)
+        scatter.append(deviations(run, steady).std())
+        work.append(done.std() / done.mean())
+    assert scatter[1] / scatter[0] == pytest.approx(0.5, abs=0.1)
+    assert work[1] / work[0] == pytest.approx(1.0, abs=0.1)
+
+
 def test_another_friction_leaves_no_offset(engine, steady):
     """The disturbance observer takes away what the model does not know."""
     stiff = engine.replace(**{"friction.coefficient": 1.5 * engine.get("friction.coefficient")})
