@@ -1,7 +1,8 @@
 """Steady states: fixed points of the return map, their stability and their branches."""
 
 from saleg.steady import continuation
-from saleg.steady.linear import LinearModel, NoLinearModel
+from saleg.steady.linear import LinearModel
+from saleg.steady.linear_inputs import NoLinearModel
 from saleg.steady.solver import Effort, NoSteadyState, SteadyState, steady_state
 
 __all__ = [

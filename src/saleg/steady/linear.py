@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from saleg.engine import Engine
-from saleg.errors import SalegError, shown
+from saleg.errors import shown
 from saleg.kernel import layout
-from saleg.kernel.control import supply
 from saleg.laws.arguments import Signals
 from saleg.simulation.course import Replay
-from saleg.simulation.initial_state import State, prepare
+from saleg.simulation.initial_state import State
 from saleg.simulation.run import read_only
 from saleg.simulation.signals import measured
 from saleg.steady.entry_names import ENTRY_NAMES
-from saleg.steady.return_map import NoReturn, ReturnMap, is_symmetric, step_tolerance
+from saleg.steady.linear_inputs import Input, NoLinearModel, difference_of
+from saleg.steady.return_map import NoReturn, ReturnMap, step_tolerance
 from saleg.steady.stability import DIFFERENCE, TOLERANCE, split_multipliers
 
 if TYPE_CHECKING:
     import control
 
-#: What a model answers to, and what it shows, unless asked otherwise.
-INPUTS = ("load_weight", "equivalence_ratio", "intake_temperature")
+#: What a model shows unless asked otherwise.
 OUTPUTS = ("dead_centre", "stroke", "compression_ratio", "frequency", "power")
 #: Signals that are no measurement of a stroke.
 NO_OUTPUT = {
@@ -38,26 +37,6 @@ NO_OUTPUT = {
     "rated_intake_temperature",
 }
 SIGNALS = tuple(name for name in Signals._fields if name not in NO_OUTPUT)
-#: Numbers of the engine that change what happens next and not where it stands.
-ENGINE_NUMBERS = ("mass", "back_force")
-CHAMBER_NUMBERS = (
-    "port",
-    "intake_pressure",
-    "intake_temperature",
-    "equivalence_ratio_wanted",
-    "lower_heating_value",
-    "air_fuel_ratio",
-    "combustion_efficiency",
-    "late_ignition",
-    "beside_rated_temperature",
-    "over_rated_fuel",
-)
-#: Numbers of a chamber with which its present contents would be others.
-GEOMETRY = ("bore", "area", "half_stroke", "head_gap", "gas_constant", "curve_exponent")
-
-
-class NoLinearModel(SalegError, ValueError):
-    """There is no linear model with such inputs and outputs, or none at all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,13 +169,13 @@ def linear_model(
     inputs, outputs = tuple(inputs), tuple(outputs)
     _check_outputs(outputs)
     engine, start = replay.engine, replay.start
-    given = [_Input.of(engine, start, name) for name in inputs]
+    given = [Input.of(engine, start, name) for name in inputs]
     mirrored = mirrored and all(item.keeps_mirror for item in given)
     image = _Image(start, mirrored, outputs)
     try:
         rest = image.of(engine, start)
         entries, columns = image.by_state(engine)
-        moved = [item.derivative(image) for item in given]
+        moved = [_derivative(image, item) for item in given]
     except NoReturn:
         raise NoLinearModel("no return: the least change stalls it or ends in a head") from None
     jacobian = np.zeros((layout.N_VECTOR, layout.N_VECTOR))
@@ -259,72 +238,11 @@ class _Image:
         return np.concatenate([vector, shown])
 
 
-@dataclass(frozen=True)
-class _Input:
-    """One input: its value at the steady state, and the engine and state with another value."""
-
-    value: float
-    changed: Callable[[float], tuple[Engine, State]]
-    keeps_mirror: bool = True
-
-    @classmethod
-    def of(cls, engine: Engine, start: State, name: str) -> _Input:
-        """A command at a dead centre, or else a number of the engine by its path."""
-        if name in INPUTS:
-            value = float(start.engine[name][0])
-            return cls(value, lambda new: (engine, _commanded(start, name, new)))
-        value = engine.get(name)
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise NoLinearModel(f"input {shown(name)}: must be a number of the engine")
-
-        def changed(new: float) -> tuple[Engine, State]:
-            other = engine.replace(**{name: new})
-            other.validate()
-            return other, _with_numbers(engine, other, start, name)
-
-        beside = engine.replace(**{name: value + _difference(value)})
-        return cls(float(value), changed, is_symmetric(beside) or not is_symmetric(engine))
-
-    def derivative(self, image: _Image) -> np.ndarray:
-        """Derivative of the image by this input."""
-        by = _difference(self.value)
-        ahead, behind = (image.of(*self.changed(self.value + sign * by)) for sign in (1.0, -1.0))
-        return (ahead - behind) / (2.0 * by)
-
-
-def _difference(value: float) -> float:
-    """Difference on either side of a number."""
-    return DIFFERENCE * (abs(value) or 1.0)
-
-
-def _commanded(start: State, name: str, value: float) -> State:
-    """A state at which something else is commanded."""
-    state = start.copy()
-    state.engine[name] = value
-    supply(*state.records)
-    return state
-
-
-def _with_numbers(engine: Engine, other: Engine, start: State, name: str) -> State:
-    """A state as it stands, in an engine with another number from now on."""
-    state, was, now = start.copy(), prepare(engine), prepare(other)
-    for field in GEOMETRY:
-        if (was.chambers[field] != now.chambers[field]).any():
-            raise NoLinearModel(
-                f"input '{name}': must not change the geometry or the gas, for then what stands "
-                "in the chambers is another"
-            )
-    for field in ENGINE_NUMBERS:
-        state.engine[field] += now.engine[field] - was.engine[field]
-    for field in CHAMBER_NUMBERS:
-        changes = now.chambers[field] != was.chambers[field]
-        state.chambers[field] = np.where(changes, now.chambers[field], state.chambers[field])
-    for side, chamber in enumerate(engine.chambers):
-        if "wall_temperature" not in chamber.states:
-            by = now.chambers["wall_temperature"][side] - was.chambers["wall_temperature"][side]
-            state.chambers["wall_temperature"][side] += by
-            state.y[layout.WALL + side] += by
-    return state
+def _derivative(image: _Image, given: Input) -> np.ndarray:
+    """Derivative of the image by an input."""
+    by = difference_of(given.value)
+    ahead, behind = (image.of(*given.changed(given.value + sign * by)) for sign in (1.0, -1.0))
+    return (ahead - behind) / (2.0 * by)
 
 
 def _check_outputs(outputs: Sequence[str]) -> None:

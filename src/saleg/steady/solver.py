@@ -43,7 +43,8 @@ from saleg.simulation.shaking import Shaking, shaking_of
 from saleg.simulation.validity import ValidityReport, validity_of
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
-from saleg.steady.linear import INPUTS, OUTPUTS, LinearModel, linear_model
+from saleg.steady.linear import OUTPUTS, LinearModel, linear_model
+from saleg.steady.linear_inputs import INPUTS
 from saleg.steady.return_map import (
     ReturnMap,
     Search,

@@ -1,0 +1,101 @@
+"""Inputs of a linear model: commands at a dead centre, and numbers of the engine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from saleg.engine import Engine
+from saleg.errors import SalegError, shown
+from saleg.kernel import layout
+from saleg.kernel.control import supply
+from saleg.simulation.initial_state import State, prepare
+from saleg.steady.return_map import is_symmetric
+from saleg.steady.stability import DIFFERENCE
+
+#: Commands at a dead centre.
+INPUTS = ("load_weight", "equivalence_ratio", "intake_temperature")
+#: Numbers of the engine that change what happens next and not where it stands.
+ENGINE_NUMBERS = ("mass", "back_force")
+CHAMBER_NUMBERS = (
+    "port",
+    "intake_pressure",
+    "intake_temperature",
+    "equivalence_ratio_wanted",
+    "lower_heating_value",
+    "air_fuel_ratio",
+    "combustion_efficiency",
+    "late_ignition",
+    "beside_rated_temperature",
+    "over_rated_fuel",
+)
+#: Numbers of a chamber with which its present contents would be others.
+GEOMETRY = ("bore", "area", "half_stroke", "head_gap", "gas_constant", "curve_exponent")
+
+
+class NoLinearModel(SalegError, ValueError):
+    """There is no linear model with such inputs and outputs, or none at all."""
+
+
+@dataclass(frozen=True)
+class Input:
+    """One input: its value at the steady state, and the engine and state with another value."""
+
+    value: float
+    changed: Callable[[float], tuple[Engine, State]]
+    keeps_mirror: bool = True
+
+    @classmethod
+    def of(cls, engine: Engine, start: State, name: str) -> Input:
+        """A command at a dead centre, or else a number of the engine by its path."""
+        if name in INPUTS:
+            value = float(start.engine[name][0])
+            return cls(value, lambda new: (engine, _commanded(start, name, new)))
+        value = engine.get(name)
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise NoLinearModel(f"input {shown(name)}: must be a number of the engine")
+
+        def changed(new: float) -> tuple[Engine, State]:
+            other = engine.replace(**{name: new})
+            other.validate()
+            return other, _with_numbers(engine, other, start, name)
+
+        beside = engine.replace(**{name: value + difference_of(value)})
+        return cls(float(value), changed, is_symmetric(beside) or not is_symmetric(engine))
+
+
+def difference_of(value: float) -> float:
+    """Difference on either side of a number."""
+    return DIFFERENCE * (abs(value) or 1.0)
+
+
+def _commanded(start: State, name: str, value: float) -> State:
+    """A state at which something else is commanded."""
+    state = start.copy()
+    state.engine[name] = value
+    supply(*state.records)
+    return state
+
+
+def _with_numbers(engine: Engine, other: Engine, start: State, name: str) -> State:
+    """A state as it stands, in an engine with another number from now on."""
+    state, was, now = start.copy(), prepare(engine), prepare(other)
+    for field in GEOMETRY:
+        if (was.chambers[field] != now.chambers[field]).any():
+            raise NoLinearModel(
+                f"input '{name}': must not change the geometry or the gas, for then what stands "
+                "in the chambers is another"
+            )
+    for field in ENGINE_NUMBERS:
+        state.engine[field] += now.engine[field] - was.engine[field]
+    for field in CHAMBER_NUMBERS:
+        changes = now.chambers[field] != was.chambers[field]
+        state.chambers[field] = np.where(changes, now.chambers[field], state.chambers[field])
+    for side, chamber in enumerate(engine.chambers):
+        if "wall_temperature" not in chamber.states:
+            by = now.chambers["wall_temperature"][side] - was.chambers["wall_temperature"][side]
+            state.chambers["wall_temperature"][side] += by
+            state.y[layout.WALL + side] += by
+    return state
