@@ -372,6 +372,9 @@ HISTORY_RECORD = np.dtype(
             "heat_loss",
             "ignition",
             "mode",
+            "mass",
+            "burnt",
+            "wall_temperature",
         )
     ]
     + [

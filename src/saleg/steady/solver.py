@@ -279,14 +279,14 @@ class SteadyState:
         return steady_card(self)
 
     def __str__(self) -> str:
-        from saleg.simulation.report import describe_performance, describe_remarks
+        from saleg.simulation.report import describe_cycle
 
         known = vars(self).get("stability")
         stable = "stability not examined" if known is None else known.kind
         head = f"{self.engine.name}: {self.status} ({stable}) - {self.message}"
         head = head if self.found else head.replace(f" ({stable})", "")
-        shown = describe_performance(self.performance)
-        return "\n".join([head, shown, *describe_remarks(self.remarks)])
+        shown = describe_cycle(self.performance, self.scavenging, self.orbit, self.remarks)
+        return "\n".join([head, *shown])
 
 
 @renamed_keywords(most="max_maps")
