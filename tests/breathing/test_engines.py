@@ -7,21 +7,12 @@ import pytest
 
 import saleg
 from agreement import assert_agree
-from breathing_engines import single_piston
+from breathing_engines import PORTS, single_piston
 from saleg import laws
 from saleg.kernel import layout
 from saleg.simulation.initial_state import prepare
 from saleg.status import Status
 from saleg.steady.return_map import ReturnMap
-
-PORTS = laws.PortFlow(
-    exhaust_width=0.1,
-    exhaust_height=0.04,
-    intake_width=0.12,
-    intake_height=0.03,
-    intake_delay=0.01,
-    displacement=0.6,
-)
 
 
 @pytest.fixture(scope="module")

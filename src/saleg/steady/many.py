@@ -38,7 +38,7 @@ from saleg.steady.return_map import (
     step_tolerance,
 )
 from saleg.steady.sealed_gas import rises_of_theta
-from saleg.steady.slow_states import are_near, are_sharp, free_entries, may_be_slow
+from saleg.steady.slow_states import are_near, are_sharp, free_entries, has_slow_states
 from saleg.steady.solver import (
     MAX_MAPS,
     MAX_MISSED,
@@ -154,12 +154,12 @@ def lots_to_search(rows: Rows) -> list[tuple[Rows, bool]]:
 
 
 def _can_be_searched(engine: Engine) -> bool:
-    """Whether engines of this make have a return map and laws that can be compiled."""
+    """Whether engines of this make have a return map, quick states and laws that can be compiled."""
     try:
         engine.validate()
         engine.check_laws()
         check_methods(engine.laws.values())
-        return repeats_itself(engine) and not any(map(may_be_slow, engine.chambers))
+        return repeats_itself(engine) and not has_slow_states(engine)
     except SalegError:
         return False
 
