@@ -1,9 +1,7 @@
 """The right-hand side for several engines side by side, against that of one as plain Python."""
 
 import numpy as np
-import pytest
 
-import saleg
 from breathing_engines import PORTS, single_piston
 from saleg.compiler.compiled_engine import _laws_in_order
 from saleg.compiler.module import load
@@ -50,18 +48,20 @@ MODES = (
 )
 
 
-def instants(engine):
+def instants(like):
     """An engine and its state per lane, each with other numbers and in other modes."""
     for lane, modes in enumerate(MODES):
         changes = {"left.bore": 0.06 + 0.002 * lane, "left.equivalence_ratio": 0.5 + 0.1 * lane}
-        engine = engine.replace(**changes)
+        engine = like.replace(**changes)
         state = prepare(engine)
         state.y[layout.X] = 0.03 * (lane - 1)
         state.y[layout.FRESH] = 0.3 * state.y[layout.AIR]
         state.y[layout.V] = 5.0 + lane
         state.y[layout.THETA : layout.IGNITION] = 12.0 + 0.3 * lane, 12.5
         state.chambers["mode"] = modes
-        state.chambers["armed"] = np.where(state.chambers["fuel"] > 0.0, layout.ARMED, layout.DISARMED)
+        state.chambers["armed"] = np.where(
+            state.chambers["fuel"] > 0.0, layout.ARMED, layout.DISARMED
+        )
         state.chambers["t_ignition"], state.chambers["duration"] = -1e-3, 5e-3
         state.chambers["fuel_to_burn"] = 1e-5
         yield engine, state
@@ -88,12 +88,12 @@ def test_every_lane_breathes_as_its_engine(base):
     assert largest_deviation(engine, 30, layout.N_ALL) < 1e-12 * LARGEST_LOGARITHM
 
 
-def largest_deviation(engine, least, length):
+def largest_deviation(like, least, length):
     """Largest relative deviation from the rates of plain Python; so many are not zero at least."""
-    compiled = compiled_rates(engine)
+    compiled = compiled_rates(like)
     laws, states, times = [], [], np.linspace(0.0, 1e-3, WIDTH)
     wanted = np.zeros((WIDTH, layout.N_ALL))
-    for lane, (engine, state) in enumerate(instants(engine)):
+    for lane, (engine, state) in enumerate(instants(like)):
         P = plain_laws(_laws_in_order(engine, None))[0]
         E, C = _with_fields(state.engine)[0], _with_fields(state.chambers)
         refresh(P, E, C, state.y)

@@ -22,6 +22,8 @@ from saleg.steady.many import Limits, searched, steady_rows
 #: magnitude of the force, which has a corner where the current changes its sign.
 NOT_COMPARED = ("t", "ignition_time", "alternator_impulse")
 FINE = 1e-9
+#: Whether a step is looked into for a peak of the pressure rise is guessed.
+GUESSED, GUESSED_WITHIN = "peak_pressure_rise", 1e-5
 
 
 @pytest.fixture
@@ -121,8 +123,8 @@ def orbits_of(engines, total, rtol=FINE):
     return found
 
 
-def assert_lanes_agree(engines):
-    """Engines searched for side by side have the orbits they have one by one; returns them."""
+def assert_lanes_agree(engines, but=NOT_COMPARED):
+    """Engines searched for side by side have the orbits they have one by one; how many have one."""
     (rows,) = rows_by_make(engines)
     totals = len(engines), 0
     pairs = zip(*(steady_rows(rows, FINE, Effort.THOROUGH, total) for total in totals), strict=True)
@@ -132,7 +134,8 @@ def assert_lanes_agree(engines):
         count += len(found.strokes)
         for side in range(2):
             rows, others = found.strokes[:, side], wanted.strokes[:, side]
-            assert_rows_agree(rows, others, 1e-8, but=NOT_COMPARED)
+            assert_rows_agree(rows, others, 1e-8, but=but)
+            assert_rows_agree(rows[[GUESSED]], others[[GUESSED]], GUESSED_WITHIN)
         assert imbalance(found.strokes[:, 1], found.strokes).max() < 1e-8
         for name in ("x_dead_centre", "stroke"):
             begun, others = found.starts.engine[name], wanted.starts.engine[name]
@@ -146,21 +149,29 @@ def test_lanes_find_what_one_by_one_finds(base, at_once):
 
 
 def test_lanes_find_what_breathing_engines_do_one_by_one(base, at_once):
-    assert assert_lanes_agree(list(variations(breathing(base), 20))) == 20
+    engines = list(variations(breathing(base), 20))
+    assert assert_lanes_agree(engines, but=(*NOT_COMPARED, GUESSED)) == 20
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(
-    "choice", [crossed, single_piston, liftoff, patchy, breathing_on_one_side]
-)
+@pytest.mark.parametrize("choice", [crossed, single_piston, liftoff, patchy])
 def test_lanes_of_other_laws_too(base, at_once, choice):
     assert assert_lanes_agree(list(variations(choice(base), 12))) > 6
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("law", [law for law in LAWS if "wall_temperature" not in law.states], ids=repr)
+def test_lanes_of_single_piston_engines_that_breathe(base, at_once):
+    engines = list(variations(breathing_on_one_side(base), 12))
+    assert assert_lanes_agree(engines, but=(*NOT_COMPARED, GUESSED)) > 6
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "law", [law for law in LAWS if not {"wall_temperature", "frame"} & {*law.states}], ids=repr
+)
 def test_lanes_of_every_law_of_the_library(base, at_once, law):
-    assert_lanes_agree(list(variations(with_laws(base, law), 12)))
+    engines = list(variations(with_laws(base, law), 12))
+    assert_lanes_agree(engines, but=(*NOT_COMPARED, *[GUESSED] * bool(law.states)))
 
 
 def test_rows_do_not_depend_on_their_neighbours(base, at_once):

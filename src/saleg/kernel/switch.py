@@ -77,7 +77,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.needs import CONTENTS_ARE_WANTED, CRANKCASE_IS_WANTED, FRAME_IS_WANTED
+from saleg.kernel.needs import CONTENTS_ARE_WANTED, FRAME_IS_WANTED
 from saleg.kernel.rhs import charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,

@@ -154,7 +154,7 @@ def lots_to_search(rows: Rows) -> list[tuple[Rows, bool]]:
 
 
 def _can_be_searched(engine: Engine) -> bool:
-    """Whether engines of this make have a return map, quick states and laws that can be compiled."""
+    """Whether engines of this make have a return map, laws to compile and no slow states."""
     try:
         engine.validate()
         engine.check_laws()
