@@ -12,9 +12,10 @@ from library_laws import LAWS
 from saleg import laws
 from saleg.compiler.imported_text import NoSource
 from saleg.compiler.records import numbers_of, record_of
+from saleg.compiler.slot_text import methods_text
 from saleg.compiler.source import Borrowed
 from saleg.compiler.strength_reduction import EXPONENTIAL
-from saleg.compiler.text import CHOICE, methods_text
+from saleg.compiler.text import CHOICE
 from saleg.kernel.logarithms import Logarithms
 from saleg.laws import Charge, Gas, Motion, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law
@@ -62,6 +63,9 @@ ARGUMENTS = {
     "acceleration": [(force, 0.01, -2.0) for force in (-1e4, 0.0, 300.0)],
     "transmitted": [(force, 0.01, -2.0) for force in (-1e4, 0.0, 300.0)],
     "loss": [(v,) for v in (-2.0, 0.0, 0.5)],
+    "fuel_factor": [(number, side) for number in (0.0, 1.0, 7.0) for side in (0.0, 1.0)],
+    "delay_factor": [(number, side) for number in (0.0, 1.0, 7.0) for side in (0.0, 1.0)],
+    "duration_factor": [(number, side) for number in (0.0, 1.0, 7.0) for side in (0.0, 1.0)],
     "temperature_rate": [(450.0, heat) for heat in (-20.0, 0.0, 800.0)],
     "energy": [(motion,) for motion in MOTIONS],
     "happens": [(number,) for number in (0.0, 1.0, 2.0, 7.0)],

@@ -226,7 +226,7 @@ def chamber_flows(P, C, side, y, gas):
     leak = flow_in(P, side, gap, gas, g, R, p_leak, T_leak)
     # Compositions: of the supply with fuel metered to its air at the ports, of what leaves, of the
     # gas.
-    metered = c.equivalence_ratio_wanted * (1.0 - burnt_supply)
+    metered = c.fuel_factor * c.equivalence_ratio_wanted * (1.0 - burnt_supply)
     fuel_share = metered / (metered + c.air_fuel_ratio)
     burnt_share = (1.0 - fuel_share) * burnt_supply
     fuel_out, burnt_out, fresh_out = 0.0, 0.0, 0.0

@@ -288,6 +288,8 @@ CHAMBER_RECORD = np.dtype(
     # Whether its masses are states, and gas flows through its ports; mass when lit; of what
     # flowed in since the ports opened, what was left when they closed.
     + [(name, np.float64) for name in ("breathes", "by_flow", "mass_lit", "fresh")]
+    # Fuel metered to the coming charge over that commanded.
+    + [("fuel_factor", np.float64)]
 )
 
 #: One row per stroke, written at the dead centre that ends it. Values per side are left, right.

@@ -26,6 +26,7 @@ from saleg.kernel.layout import (
     CORNER,
     CRANKCASE_MASS,
     CRANKCASE_WORK,
+    CURRENT,
     DEAD_CENTRE,
     DISARMED,
     ELECTRICAL_ENERGY,
@@ -90,6 +91,9 @@ from saleg.kernel.slots import (
     heat_release_duration,
     ignition_lights_at_dead_centre,
     misfires_happens,
+    scatter_delay_factor,
+    scatter_duration_factor,
+    scatter_fuel_factor,
     springs_energy,
 )
 from saleg.kernel.state import begin_stroke, clearance_of
@@ -157,6 +161,7 @@ def ignite(P, E, C, side, y, motored):
     c = C[side]
     gas = gas_of(E, C, side, y, motored)
     c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side, y))
+    c.duration *= scatter_duration_factor(P, c.charge_number, 1.0 * side)
     c.mode = BURNING
     c.armed = DISARMED
     c.t_ignition = E.t
@@ -224,6 +229,7 @@ def open_ports(P, E, C, side, y):
         end_combustion(P, E, C, side)
     c = C[side]
     if by_flow(C, side):
+        c.fuel_factor = scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
         c.mode = OPEN
         c.armed = DISARMED
         y[IGNITION + side] = 0.0
@@ -271,8 +277,10 @@ def compose_charge(P, C, side, y, p, T):
     clearance = clearance_of(C, side, y[X])
     volume = c.area * clearance
     mass = p * volume / (c.gas_constant * T)
+    wanted = c.equivalence_ratio_wanted
+    wanted *= scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
     fuel, air, burnt, fresh = gas_exchange_charge(
-        P, side, mass, c.fuel, c.air, c.burnt, c.equivalence_ratio_wanted, c.air_fuel_ratio
+        P, side, mass, c.fuel, c.air, c.burnt, wanted, c.air_fuel_ratio
     )
     c.fresh_fuel_energy += fresh * c.lower_heating_value
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
@@ -304,7 +312,7 @@ def arm_charge(P, C, side, y, p, T, volume):
     c.armed = ARMED if c.fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
-    y[IGNITION + side] = 0.0
+    y[IGNITION + side] = 1.0 - scatter_delay_factor(P, c.charge_number, 1.0 * side)
 
 
 @compiled
@@ -326,7 +334,7 @@ def write_stroke(P, E, C, y, peaks, row):
     row.speed_squared = y[N_STATE + SPEED_SQUARED]
     row.peak_acceleration = peaks[PEAK_ACCELERATION]
     row.peak_velocity = peaks[PEAK_VELOCITY]
-    row.spring_energy = springs_energy(P, Motion(E.t, y[X], y[V], E.direction))
+    row.spring_energy = springs_energy(P, Motion(E.t, y[X], y[V], E.direction, y[CURRENT]))
     row.spring_energy -= E.back_force * y[X]
     if FRAME_IS_WANTED:
         v = y[FRAME_V]

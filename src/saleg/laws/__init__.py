@@ -23,6 +23,7 @@ from saleg.laws.base import (
     Law,
     Leak,
     Misfires,
+    Scatter,
     Springs,
     Supply,
     Validity,
@@ -76,6 +77,7 @@ from saleg.laws.ignition import (
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
+from saleg.laws.scatter import CyclicVariability, NoScatter
 from saleg.laws.springs import (
     AirSprings,
     EndStops,
@@ -111,6 +113,7 @@ __all__ = [
     "CosineForce",
     "CoulombViscousFriction",
     "Crankcase",
+    "CyclicVariability",
     "DeadCentreRegulator",
     "DoubleWiebe",
     "Drive",
@@ -157,6 +160,7 @@ __all__ = [
     "NoHeatTransfer",
     "NoLeak",
     "NoMisfires",
+    "NoScatter",
     "OneSidedSprings",
     "Plenum",
     "PolytropicLoss",
@@ -171,6 +175,7 @@ __all__ = [
     "ResonanceSearch",
     "RingLeak",
     "ScaledLoad",
+    "Scatter",
     "ScheduledMisfires",
     "Signals",
     "SinusoidalMotor",

@@ -22,6 +22,7 @@ from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
+from saleg.laws import NoScatter
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import State, natural_period, prepare
@@ -33,11 +34,13 @@ from saleg.simulation.outcome import (
     is_dead,
     is_idling,
 )
-from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
+from saleg.simulation.performance import EnergyBalance, Performance
+from saleg.simulation.plausibility import remarks_on
 from saleg.simulation.run import Run, read_only
 from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.simulation.shaking import Shaking, shaking_of
+from saleg.simulation.validity import ValidityReport, validity_of
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import (
@@ -228,6 +231,12 @@ class SteadyState:
         return remarks_on(self.engine, self.quick_performance, self.strokes)
 
     @property
+    def validity(self) -> ValidityReport:
+        """Laws outside their ranges, implausible figures, and what a published machine supports."""
+        exits = [] if self.orbit is None else self.orbit.range_exits
+        return validity_of(self.engine, self.quick_performance, self.strokes, exits)
+
+    @property
     def moving_mass(self) -> float:
         """Moving mass [kg]."""
         return float(self.engine.translator.mass)
@@ -357,6 +366,8 @@ def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> Steady
     quick = effort is Effort.QUICK
     if not repeats_itself(engine):
         why = "a law depends on time or counts charges"
+        if not isinstance(engine.scatter, NoScatter):
+            why = "charges scatter; the mean engine's state is that with NoScatter()"
         return not_found(engine, 0, 0, why) if quick else waited_for(engine, rtol, 0, 0, why)
     if quick:
         return _solved(engine, rtol, min(max_maps, QUICK_MAPS), quick)
