@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -183,7 +183,7 @@ def _best(
     have to be within the margins.
     """
     names = ["power", "efficiency", *margins]
-    figures = states[names].to_numpy(dtype=float)
+    figures = states[names].to_numpy(dtype=float, copy=True)
     figures[~_is_orbit(states).to_numpy()] = np.nan
     columns = np.hstack([figures, points]).reshape(*shape, -1)
     found = []
