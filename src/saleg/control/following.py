@@ -178,13 +178,14 @@ def demand_by_fuel(
     return follow_demand(engine, fuel_control=law, **settings)
 
 
-@checked(engine=a(Engine), demand=a(Demand), known=a(PartLoadMap), gain=NUMBER)
+@checked(engine=a(Engine), demand=a(Demand), known=a(PartLoadMap), gain=NUMBER, lag=NUMBER)
 def demand_by_map(
     engine: Engine,
     demand: Demand,
     known: PartLoadMap,
     *,
     gain: float = 0.3,
+    lag: float = 0.05,
     **settings: Any,
 ) -> Run:
     """Start an engine up and let fuel and intake temperature follow a demand on one map.
@@ -196,8 +197,8 @@ def demand_by_map(
         Power over time.
     known : PartLoadMap
         Over equivalence ratio, intake temperature or both; what it does not vary stays rated.
-    gain : float
-        Of :class:`saleg.laws.MappedFuel` [1/s].
+    gain, lag : float
+        Of :class:`saleg.laws.MappedFuel` [1/s, s].
     **settings
         Duration and further settings of :func:`follow_demand`.
 
@@ -220,7 +221,9 @@ def demand_by_map(
     if "equivalence_ratio" in known.paths:
         ratios = known.column("equivalence_ratio")
         limits = {"lowest": min(ratios), "highest": max(ratios)}
-        laws["fuel_control"] = MappedFuel(gain=gain, equivalence_ratios=ratios, **limits, **wanted)
+        laws["fuel_control"] = MappedFuel(
+            gain=gain, lag=lag, equivalence_ratios=ratios, **limits, **wanted
+        )
     if "intake.temperature" in known.paths:
         temperatures = known.column("intake.temperature")
         laws["intake_control"] = MappedIntake(temperatures=temperatures, **wanted)
