@@ -37,7 +37,6 @@ def at_load(table, share):
 def main(folder):
     """Maps, steps, and a cycle that is followed; the picture of them."""
     known = control.part_load_map(ENGINE)
-    known.save(folder / "part_load.csv", overwrite=True)
     heated, lean = control.intake_map(ENGINE).table, control.fuel_map(ENGINE).table
     for share in (0.25, 0.5, 0.75):
         found = [at_load(table, share) for table in (heated, lean, known.table)]
@@ -63,7 +62,8 @@ def main(folder):
     wanted = np.interp(after.t, CYCLE.t, CYCLE.share * RATED)
     print(f"cycle: power within {np.sqrt(np.mean((after.power - wanted) ** 2)):.0f} W rms")
 
-    figure, axes = new_figure(1, 2, 10.0, 4.2)
+    figure = new_figure(width=10.5, height=4.4)
+    axes = figure.subplots(1, 2)
     others = {"heated intake": heated, "leaner charge": lean}
     plots.part_load(known, axes[0], others=others)
     axes[1].plot(after.t, after.power / 1e3, label="power")
@@ -71,6 +71,7 @@ def main(folder):
     axes[1].set_xlabel("time [s]")
     axes[1].set_ylabel("power [kW]")
     axes[1].legend()
+    axes[1].set_title("A made-up cycle", fontsize="medium")
     figure.savefig(folder / "part_load.png")
 
 

@@ -105,33 +105,33 @@ def operating_map(
 
 @documented()
 def part_load(
-    known: PartLoadMap, ax: Axes | None = None, *, others: Mapping[str, pd.DataFrame] | None = None
+    best: PartLoadMap, ax: Axes | None = None, *, others: Mapping[str, pd.DataFrame] | None = None
 ) -> ShownAxes:
     """Draw the efficiency [%] of a part-load map over power [kW], beside what it was chosen from.
 
     Parameters
     ----------
-    known : PartLoadMap
+    best : PartLoadMap
     others : mapping of str to DataFrame, optional
         Tables of other maps by name, such as that of :func:`saleg.control.intake_map`.
     """
     ax = axes_or_new(ax)
-    states = known.states[known.states.within]
-    cloud: dict[str, Any] = {"color": "0.75", "marker": ".", "markersize": 4, "linestyle": "none"}
+    states = best.states[best.states.within]
+    look: dict[str, Any] = {"color": "0.75", "marker": ".", "markersize": 4, "linestyle": "none"}
     x, y = "power", "efficiency"
-    ax.plot(values(states, x), values(states, y), label="within the margins", **cloud)
+    ax.plot(values(states, x), values(states, y), label="within the margins", **look)
     for colour, (name, table) in zip(
         (RIGHT_COLOUR, LEFT_COLOUR, "0.4"), (others or {}).items(), strict=False
     ):
         rows = {kind.label: rows for kind, rows in kinds(table)}[STABLE.label]
-        look: dict[str, Any] = {"color": colour, "linestyle": "--", "linewidth": 1.4}
+        look = {"color": colour, "linestyle": "--", "linewidth": 1.4}
         ax.plot(values(table, x)[rows], values(table, y)[rows], label=name, **look)
-    best: dict[str, Any] = {"color": TRANSLATOR_COLOUR, "linewidth": 1.6}
-    ax.plot(values(known.table, x), values(known.table, y), label="best", **best)
+    look = {"color": TRANSLATOR_COLOUR, "linewidth": 1.6}
+    ax.plot(values(best.table, x), values(best.table, y), label="best", **look)
     ax.set_xlim(left=0.0)
     ax.set_ylim(bottom=0.0)
-    ax.set_xlabel(label_of(known.table, x))
-    ax.set_ylabel(label_of(known.table, y))
+    ax.set_xlabel(label_of(best.table, x))
+    ax.set_ylabel(label_of(best.table, y))
     return finish(ax, "Part load", "lower right")
 
 
