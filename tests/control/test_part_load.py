@@ -95,4 +95,4 @@ def test_a_saved_map_is_read_back(tmp_path, known):
     np.testing.assert_array_equal(rows["power [W]"], known.table.power)
 
 
-TEXTS = ("status", "message", "method", "kind")
+TEXTS = ("status", "message", "method", "kind", "stable")

@@ -216,13 +216,17 @@ def demand_by_map(
         if path not in commanded:
             allowed = f"a controller commands {' and '.join(commanded)} alone"
             raise InvalidController([Problem("known", path, "", allowed)])
-    wanted = {"times": demand.times, "demands": demand.powers, "powers": known.column("power")}
+    wanted: dict[str, Any] = {
+        "times": demand.times,
+        "demands": demand.powers,
+        "powers": known.column("power"),
+    }
     laws: dict[str, Any] = {}
     if "equivalence_ratio" in known.paths:
         ratios = known.column("equivalence_ratio")
-        limits = {"lowest": min(ratios), "highest": max(ratios)}
+        wanted_fuel = wanted | {"lowest": min(ratios), "highest": max(ratios)}
         laws["fuel_control"] = MappedFuel(
-            gain=gain, lag=lag, equivalence_ratios=ratios, **limits, **wanted
+            gain=gain, lag=lag, equivalence_ratios=ratios, **wanted_fuel
         )
     if "intake.temperature" in known.paths:
         temperatures = known.column("intake.temperature")

@@ -115,8 +115,8 @@ class MappedFuel(FuelControl):
     """Equivalence ratio from a map over power, and what is missing by an integral controller.
 
     ``phi = phi_map(P_demand) + K (integral of P_demand - P) / P_last`` within limits, P_last the
-    greatest power of the map, which is clipped at its ends. What the map asks for is followed with
-    a lag: a leaner charge at once takes away more than the load, which is regulated once per
+    greatest power of the map, which is clipped at its ends. The demand is followed with a lag: a
+    leaner charge at once takes away more than the load, which is regulated once per
     stroke, gives back. The integral stands still while the alternator is a motor. Goes with
     :class:`MappedIntake` on the same map.
 
@@ -125,7 +125,7 @@ class MappedFuel(FuelControl):
     gain : float
         K [1/s].
     lag : float
-        Time constant with which the map is followed [s]; 0 follows at once.
+        Time constant with which the demand is followed [s]; 0 follows at once.
     powers : tuple of float
         Powers of the map, rising [W].
     equivalence_ratios : tuple of float
@@ -150,16 +150,16 @@ class MappedFuel(FuelControl):
     highest: float = quantity("-", default=0.7, low=0)
 
     def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
-        """Equivalence ratio [-]; holds its distance from the map, time, and map with lag."""
+        """Equivalence ratio [-]; holds its distance from the map, time and lagging demand."""
         elapsed = signals.t - memory[1]
         memory[1] = signals.t
         demand = at_time(signals.t, self.times, self.demands)
-        planned = linear(demand, self.powers, self.equivalence_ratios)
         if memory[3] > 0.0:
-            planned = lagging(memory[2], planned, elapsed, self.lag)
-        memory[2], memory[3] = planned, 1.0
+            demand = lagging(memory[2], demand, elapsed, self.lag)
+        memory[2], memory[3] = demand, 1.0
         if signals.motoring > 0.0:
             return 0.0
+        planned = linear(demand, self.powers, self.equivalence_ratios)
         if signals.was_motoring == 0.0:
             missing = (demand - signals.power) / self.powers[len(self.powers) - 1]
             memory[0] += self.gain * missing * elapsed
