@@ -30,6 +30,7 @@ from saleg.control.moments import (
 )
 from saleg.control.part_load import PartLoadMap, part_load_map
 from saleg.control.plant import Plant
+from saleg.control.plants import Plants
 from saleg.control.running import (
     fired_at,
     generator,
@@ -45,6 +46,7 @@ __all__ = [
     "OperatingMap",
     "PartLoadMap",
     "Plant",
+    "Plants",
     "Sensors",
     "StepResponse",
     "demand_by_fuel",
