@@ -16,19 +16,23 @@ from saleg.control.following import (
     demand_by_fuel,
     demand_by_intake,
     demand_by_load,
+    demand_by_map,
     follow_demand,
 )
 from saleg.control.load_feedback import Feedback
 from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
 from saleg.control.margin import ignition_margins, misfire_warning
 from saleg.control.moments import (
+    StepResponse,
     first_misfire,
     fuel_cuts,
     late_ignitions,
     motored_times,
     ports_opened_at,
+    step_response,
 )
 from saleg.control.operating_line import NoOperatingLine, OperatingLine, operating_line
+from saleg.control.part_load import PartLoadMap, part_load_map
 from saleg.control.plant import Plant
 from saleg.control.plants import Plants
 from saleg.control.running import (
@@ -49,13 +53,16 @@ __all__ = [
     "NoOperatingLine",
     "OperatingLine",
     "OperatingMap",
+    "PartLoadMap",
     "Plant",
     "Plants",
     "PowerAtDeadCentre",
     "Sensors",
+    "StepResponse",
     "demand_by_fuel",
     "demand_by_intake",
     "demand_by_load",
+    "demand_by_map",
     "fired_at",
     "first_misfire",
     "follow_demand",
@@ -77,10 +84,12 @@ __all__ = [
     "operating_line",
     "operating_map",
     "overload",
+    "part_load_map",
     "ports_opened_at",
     "rapid_start",
     "recovery_time",
     "simulate",
     "simulate_many",
     "start_up",
+    "step_response",
 ]

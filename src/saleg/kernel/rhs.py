@@ -244,7 +244,7 @@ def chamber_rates(P, E, C, side, t, y, motored):
     c = C[side]
     p, own = c.intake_pressure, has_own_pressure(C, side)
     rate, ignition, motored_rate, released, lost = 0.0, 0.0, 0.0, 0.0, 0.0
-    flows = no_flows()
+    flows = no_flows(C, side)
     if any_of(own):
         clearance_rate = c.sign * y[V]
         ln_clearance = ln_clearance_of(C, side, y[X])

@@ -6,6 +6,7 @@ from saleg.kernel.breathing import (
     breathes,
     by_flow,
     crankcase_of,
+    has_crankcase,
     has_own_pressure,
     mass_of,
     take_contents,
@@ -77,7 +78,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.needs import CONTENTS_ARE_WANTED, CRANKCASE_IS_WANTED, FRAME_IS_WANTED
+from saleg.kernel.needs import CONTENTS_ARE_WANTED, FRAME_IS_WANTED
 from saleg.kernel.rhs import charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
@@ -148,8 +149,8 @@ def internal_energy(P, C, side, y):
     if has_own_pressure(C, side):
         _, T = pressure_and_temperature(C, side, y)
     energy = mass_of(C, side, y) * gas_properties_internal_energy(P, side, T)
-    if CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0:
-        _, T = crankcase_of(P, C, side, y)
+    if has_crankcase(y, side):
+        T = crankcase_of(P, C, side, y).T
         energy += y[CRANKCASE_MASS + side] * gas_properties_internal_energy(P, side, T)
     return energy
 

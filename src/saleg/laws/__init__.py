@@ -39,8 +39,8 @@ from saleg.laws.control.base import (
     MotorControl,
     StateLogic,
 )
-from saleg.laws.control.fuel import FuelCut, FuelOnDemand, NoFuel, RatedFuel
-from saleg.laws.control.intake import HeatedIntake, RatedIntake
+from saleg.laws.control.fuel import FuelCut, FuelOnDemand, MappedFuel, NoFuel, RatedFuel
+from saleg.laws.control.intake import HeatedIntake, MappedIntake, RatedIntake
 from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad, StrokeRegulator
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
@@ -149,6 +149,8 @@ __all__ = [
     "LoadControl",
     "LumpedWall",
     "MakeUpValve",
+    "MappedFuel",
+    "MappedIntake",
     "Misfires",
     "MixtureGas",
     "Motion",
