@@ -58,6 +58,9 @@ class Law(Quantities):
         States of a chamber that the law asks for, by the names in
         :data:`saleg.kernel.layout.CHAMBER_STATES`: they are integrated then. Without one that asks
         they cost nothing.
+    derived : tuple of str
+        Properties that are series of numbers which follow from its own (``cached_property``), such
+        as their logarithms: they are computed once and stand beside its numbers, compiled too.
     """
 
     slot: ClassVar[str] = ""
@@ -68,6 +71,7 @@ class Law(Quantities):
     earlier_names: ClassVar[dict[str, str]] = {}
     mirrors: ClassVar[bool] = False
     states: ClassVar[tuple[str, ...]] = ()
+    derived: ClassVar[tuple[str, ...]] = ()
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()

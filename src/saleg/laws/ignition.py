@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
 
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import Ignition, Validity
-from saleg.laws.interpolation import interval, share
+from saleg.laws.interpolation import interval, share, trilinear
 from saleg.laws.usual import ACTIVATION_ENERGY, GAS_PRESSURE, LENGTH
 from saleg.quantities import quantity, series
 
@@ -244,38 +246,46 @@ class TabulatedDelay(Ignition):
     )
     burnt_shares: tuple[float, ...] = series("-", default=(0.0,), low=0, high=1, rising=True)
 
+    derived: ClassVar[tuple[str, ...]] = ("ln_pressures", "cold_to_hot", "ln_delays")
+
+    @cached_property
+    def ln_pressures(self) -> tuple[float, ...]:
+        """Natural logarithms of the pressures."""
+        return tuple(math.log(p) for p in self.pressures)
+
+    @cached_property
+    def cold_to_hot(self) -> tuple[float, ...]:
+        """Temperatures as -1/T [1/K], which rises with them."""
+        return tuple(-1.0 / T for T in self.temperatures)
+
+    @cached_property
+    def ln_delays(self) -> tuple[float, ...]:
+        """Natural logarithms of the delays."""
+        return tuple(math.log(delay) for delay in self.delays)
+
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: one over the delay."""
-        burnt = charge.burnt / charge.mass
+        ln_p, heat, burnt = math.log(gas.p), -1.0 / gas.T, charge.burnt / charge.mass
         h = interval(burnt, self.burnt_shares)
-        i = interval(gas.p, self.pressures)
-        j = interval(gas.T, self.temperatures)
+        i = interval(ln_p, self.ln_pressures)
+        j = interval(heat, self.cold_to_hot)
         k = interval(charge.equivalence_ratio, self.equivalence_ratios)
+        columns = len(self.equivalence_ratios)
+        rows = len(self.temperatures) * columns
+        pages = len(self.pressures) * rows
+        entry = h * pages + i * rows + j * columns + k
+        shares = (
+            share(ln_p, self.ln_pressures, i),
+            share(heat, self.cold_to_hot, j),
+            share(charge.equivalence_ratio, self.equivalence_ratios, k),
+        )
+        steps = (
+            rows if shares[0] > 0.0 else 0,
+            columns if shares[1] > 0.0 else 0,
+            1 if shares[2] > 0.0 else 0,
+        )
+        ln_delay = trilinear(self.ln_delays, entry, steps, shares)
         t = share(burnt, self.burnt_shares, h)
-        u = share_of_logarithm(gas.p, self.pressures, i)
-        v = share_of_inverse(gas.T, self.temperatures, j)
-        w = share(charge.equivalence_ratio, self.equivalence_ratios, k)
-        rows, columns = len(self.temperatures), len(self.equivalence_ratios)
-        ln_delay = 0.0
-        for corner in range(16):
-            a, b, c, d = corner // 8, corner // 4 % 2, corner // 2 % 2, corner % 2
-            weight = (t if a else 1.0 - t) * (u if b else 1.0 - u)
-            weight *= (v if c else 1.0 - v) * (w if d else 1.0 - w)
-            if weight > 0.0:
-                entry = ((h + a) * len(self.pressures) + i + b) * rows + j + c
-                ln_delay += weight * math.log(self.delays[entry * columns + k + d])
+        if t > 0.0:
+            ln_delay += t * (trilinear(self.ln_delays, entry + pages, steps, shares) - ln_delay)
         return math.exp(-ln_delay)
-
-
-def share_of_logarithm(x: float, grid: tuple[float, ...], i: int) -> float:
-    """Where ln x lies between the logarithms of an interval's ends, from 0 to 1."""
-    if len(grid) == 1:
-        return 0.0
-    return min(max(math.log(x / grid[i]) / math.log(grid[i + 1] / grid[i]), 0.0), 1.0)
-
-
-def share_of_inverse(x: float, grid: tuple[float, ...], i: int) -> float:
-    """Where 1/x lies between the inverses of an interval's ends, from 0 to 1."""
-    if len(grid) == 1:
-        return 0.0
-    return min(max((1.0 / x - 1.0 / grid[i]) / (1.0 / grid[i + 1] - 1.0 / grid[i]), 0.0), 1.0)

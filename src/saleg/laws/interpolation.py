@@ -75,6 +75,26 @@ def bilinear(
     return here * (1.0 - u) + there * u
 
 
+def trilinear(
+    values: Sequence[float],
+    first: int,
+    steps: tuple[int, int, int],
+    shares: tuple[float, float, float],
+) -> float:
+    """Trilinear interpolation in a cell of a table, given its first corner.
+
+    Along each axis `steps` lead to the entry beyond and `shares` say how far to go, from 0 to 1.
+    """
+    a, b, c = steps
+    u, v, w = shares
+    total = 0.0
+    for here, weight in ((first, 1.0 - u), (first + a, u)):
+        near = values[here] + w * (values[here + c] - values[here])
+        far = values[here + b] + w * (values[here + b + c] - values[here + b])
+        total += weight * (near + v * (far - near))
+    return total
+
+
 def slope(grid: Sequence[float], values: Sequence[float], i: int) -> float:
     """Slope at a point of a monotone cubic (Fritsch and Butland), zero at a turning point."""
     last = len(grid) - 1
