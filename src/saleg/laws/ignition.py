@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import Ignition, Validity
-from saleg.laws.interpolation import interval, share, trilinear
+from saleg.laws.interpolation import interval, share, slope
 from saleg.laws.usual import ACTIVATION_ENERGY, GAS_PRESSURE, LENGTH
 from saleg.quantities import quantity, series
 
@@ -246,7 +247,7 @@ class TabulatedDelay(Ignition):
     )
     burnt_shares: tuple[float, ...] = series("-", default=(0.0,), low=0, high=1, rising=True)
 
-    derived: ClassVar[tuple[str, ...]] = ("ln_pressures", "cold_to_hot", "ln_delays")
+    derived: ClassVar[tuple[str, ...]] = ("ln_pressures", "cold_to_hot", "ln_delays", "slopes")
 
     @cached_property
     def ln_pressures(self) -> tuple[float, ...]:
@@ -263,6 +264,18 @@ class TabulatedDelay(Ignition):
         """Natural logarithms of the delays."""
         return tuple(math.log(delay) for delay in self.delays)
 
+    @cached_property
+    def slopes(self) -> tuple[float, ...]:
+        """Slopes of those logarithms over -1/T [K]."""
+        columns, rows = len(self.equivalence_ratios), len(self.temperatures)
+        found = []
+        for n in range(len(self.delays)):
+            i = n // columns % rows
+            first = n - i * columns
+            line = self.ln_delays[first : first + rows * columns : columns]
+            found.append(slope(self.cold_to_hot, line, i))
+        return tuple(found)
+
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: one over the delay."""
         ln_p, heat, burnt = math.log(gas.p), -1.0 / gas.T, charge.burnt / charge.mass
@@ -270,22 +283,41 @@ class TabulatedDelay(Ignition):
         i = interval(ln_p, self.ln_pressures)
         j = interval(heat, self.cold_to_hot)
         k = interval(charge.equivalence_ratio, self.equivalence_ratios)
-        columns = len(self.equivalence_ratios)
-        rows = len(self.temperatures) * columns
-        pages = len(self.pressures) * rows
-        entry = h * pages + i * rows + j * columns + k
-        shares = (
-            share(ln_p, self.ln_pressures, i),
-            share(heat, self.cold_to_hot, j),
-            share(charge.equivalence_ratio, self.equivalence_ratios, k),
-        )
-        steps = (
-            rows if shares[0] > 0.0 else 0,
-            columns if shares[1] > 0.0 else 0,
-            1 if shares[2] > 0.0 else 0,
-        )
-        ln_delay = trilinear(self.ln_delays, entry, steps, shares)
         t = share(burnt, self.burnt_shares, h)
-        if t > 0.0:
-            ln_delay += t * (trilinear(self.ln_delays, entry + pages, steps, shares) - ln_delay)
+        u = share(ln_p, self.ln_pressures, i)
+        w = share(charge.equivalence_ratio, self.equivalence_ratios, k)
+        weights = cubic_weights(heat, self.cold_to_hot, j)
+        column = len(self.equivalence_ratios)
+        row = len(self.temperatures) * column
+        page = len(self.pressures) * row
+        first = h * page + i * row + j * column + k
+        beyond_p, beyond_ratio = (row if u > 0.0 else 0), (1 if w > 0.0 else 0)
+        down = column if len(self.temperatures) > 1 else 0
+        ln_delay = 0.0
+        for e, share_of_page in ((first, 1.0 - t), (first + (page if t > 0.0 else 0), t)):
+            for n, weight in ((e, 1.0 - u), (e + beyond_p, u)):
+                lean = along(self.ln_delays, self.slopes, n, down, weights)
+                rich = along(self.ln_delays, self.slopes, n + beyond_ratio, down, weights)
+                ln_delay += share_of_page * weight * (lean + w * (rich - lean))
         return math.exp(-ln_delay)
+
+
+def cubic_weights(x: float, grid: Sequence[float], i: int) -> tuple[float, float, float, float]:
+    """Weights of the values at both ends of an interval and of the slopes there, for a cubic."""
+    if len(grid) == 1:
+        return 1.0, 0.0, 0.0, 0.0
+    u, h = share(x, grid, i), grid[i + 1] - grid[i]
+    w = 1.0 - u
+    return w * w * (1.0 + 2.0 * u), u * u * (1.0 + 2.0 * w), h * u * w * w, -h * u * u * w
+
+
+def along(
+    values: Sequence[float],
+    slopes: Sequence[float],
+    n: int,
+    step: int,
+    weights: tuple[float, float, float, float],
+) -> float:
+    """Value between entry `n` of a table and the one `step` on, by a cubic."""
+    a, b, c, d = weights
+    return a * values[n] + b * values[n + step] + c * slopes[n] + d * slopes[n + step]
