@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import Ignition, Validity
-from saleg.laws.interpolation import interval, share, slope
+from saleg.laws.interpolation import bicubic, cubic_weights, interval, share, slopes
 from saleg.laws.usual import ACTIVATION_ENERGY, GAS_PRESSURE, LENGTH
 from saleg.quantities import quantity, series
 
@@ -216,8 +215,9 @@ class IgnitionAtDeadCentre(Ignition):
 class TabulatedDelay(Ignition):
     """Ignition delay from a table over pressure, temperature, equivalence ratio and burnt gas.
 
-    The logarithm of the delay is interpolated linearly in that of the pressure, in 1/T, in the
-    equivalence ratio and in the share of burnt gas; beyond the table the value at its border holds.
+    The logarithm of the delay is interpolated by cubics in that of the pressure and in 1/T,
+    linearly in the equivalence ratio and in the share of burnt gas; beyond the table the value at
+    its border holds.
     :func:`saleg.fuels.ignition_delays` has tables from chemistry.
 
     Parameters
@@ -247,7 +247,13 @@ class TabulatedDelay(Ignition):
     )
     burnt_shares: tuple[float, ...] = series("-", default=(0.0,), low=0, high=1, rising=True)
 
-    derived: ClassVar[tuple[str, ...]] = ("ln_pressures", "cold_to_hot", "ln_delays", "slopes")
+    derived: ClassVar[tuple[str, ...]] = (
+        "ln_pressures",
+        "cold_to_hot",
+        "ln_delays",
+        "pressure_slopes",
+        "temperature_slopes",
+    )
 
     @cached_property
     def ln_pressures(self) -> tuple[float, ...]:
@@ -265,16 +271,15 @@ class TabulatedDelay(Ignition):
         return tuple(math.log(delay) for delay in self.delays)
 
     @cached_property
-    def slopes(self) -> tuple[float, ...]:
+    def pressure_slopes(self) -> tuple[float, ...]:
+        """Slopes of those logarithms over that of the pressure [-]."""
+        step = len(self.temperatures) * len(self.equivalence_ratios)
+        return slopes(self.ln_pressures, self.ln_delays, step)
+
+    @cached_property
+    def temperature_slopes(self) -> tuple[float, ...]:
         """Slopes of those logarithms over -1/T [K]."""
-        columns, rows = len(self.equivalence_ratios), len(self.temperatures)
-        found = []
-        for n in range(len(self.delays)):
-            i = n // columns % rows
-            first = n - i * columns
-            line = self.ln_delays[first : first + rows * columns : columns]
-            found.append(slope(self.cold_to_hot, line, i))
-        return tuple(found)
+        return slopes(self.cold_to_hot, self.ln_delays, len(self.equivalence_ratios))
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: one over the delay."""
@@ -283,41 +288,20 @@ class TabulatedDelay(Ignition):
         i = interval(ln_p, self.ln_pressures)
         j = interval(heat, self.cold_to_hot)
         k = interval(charge.equivalence_ratio, self.equivalence_ratios)
-        t = share(burnt, self.burnt_shares, h)
-        u = share(ln_p, self.ln_pressures, i)
-        w = share(charge.equivalence_ratio, self.equivalence_ratios, k)
-        weights = cubic_weights(heat, self.cold_to_hot, j)
+        richer = share(charge.equivalence_ratio, self.equivalence_ratios, k)
+        diluted = share(burnt, self.burnt_shares, h)
         column = len(self.equivalence_ratios)
         row = len(self.temperatures) * column
         page = len(self.pressures) * row
         first = h * page + i * row + j * column + k
-        beyond_p, beyond_ratio = (row if u > 0.0 else 0), (1 if w > 0.0 else 0)
-        down = column if len(self.temperatures) > 1 else 0
-        ln_delay = 0.0
-        for e, share_of_page in ((first, 1.0 - t), (first + (page if t > 0.0 else 0), t)):
-            for n, weight in ((e, 1.0 - u), (e + beyond_p, u)):
-                lean = along(self.ln_delays, self.slopes, n, down, weights)
-                rich = along(self.ln_delays, self.slopes, n + beyond_ratio, down, weights)
-                ln_delay += share_of_page * weight * (lean + w * (rich - lean))
-        return math.exp(-ln_delay)
-
-
-def cubic_weights(x: float, grid: Sequence[float], i: int) -> tuple[float, float, float, float]:
-    """Weights of the values at both ends of an interval and of the slopes there, for a cubic."""
-    if len(grid) == 1:
-        return 1.0, 0.0, 0.0, 0.0
-    u, h = share(x, grid, i), grid[i + 1] - grid[i]
-    w = 1.0 - u
-    return w * w * (1.0 + 2.0 * u), u * u * (1.0 + 2.0 * w), h * u * w * w, -h * u * u * w
-
-
-def along(
-    values: Sequence[float],
-    slopes: Sequence[float],
-    n: int,
-    step: int,
-    weights: tuple[float, float, float, float],
-) -> float:
-    """Value between entry `n` of a table and the one `step` on, by a cubic."""
-    a, b, c, d = weights
-    return a * values[n] + b * values[n + step] + c * slopes[n] + d * slopes[n + step]
+        steps = (row if len(self.pressures) > 1 else 0, column if len(self.temperatures) > 1 else 0)
+        over_p = cubic_weights(ln_p, self.ln_pressures, i)
+        over_T = cubic_weights(heat, self.cold_to_hot, j)
+        tables = (self.ln_delays, self.pressure_slopes, self.temperature_slopes)
+        ln_delay = bicubic(tables, first, steps, over_p, over_T)
+        rise = 0.0
+        if richer > 0.0:
+            rise += richer * (bicubic(tables, first + 1, steps, over_p, over_T) - ln_delay)
+        if diluted > 0.0:
+            rise += diluted * (bicubic(tables, first + page, steps, over_p, over_T) - ln_delay)
+        return math.exp(-ln_delay - rise)
