@@ -26,6 +26,8 @@ LAWS = [
     laws.IgnitionAtDeadCentre(),
     laws.NoMisfires(),
     laws.ScheduledMisfires(),
+    laws.CompleteCombustion(),
+    laws.CompletenessByRatio(),
     laws.InstantExchange(0.3),
     laws.LinearSprings(30e3),
     laws.ProgressiveSprings(),

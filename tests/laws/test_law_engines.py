@@ -32,6 +32,7 @@ ENGINES = {
             "alternator": laws.FluxProfile(cosines=(0.1,), sines=(0.05,), cogging=(20.0,)),
             "springs": laws.EndStops(gap=0.088),
             "friction": laws.ConstantFriction(60.0),
+            "completeness": laws.CompletenessByRatio((0.4, 0.7), (0.7, 1.0)),
         }
     ),
     "instant, late, misfires": BASE.replace(
@@ -93,6 +94,18 @@ def test_pressure_is_what_lights_a_charge():
     lit = run.events[run.events.event == "ignition"]
     assert len(lit) > 10
     np.testing.assert_allclose(lit.pressure, 30e5, rtol=1e-7)
+
+
+def test_what_does_not_burn_leaves_with_the_exhaust():
+    engine = ENGINES["annand, profile, flux"].replace(egr=0.0, equivalence_ratio=0.55)
+    p, T, clearance = engine.left.reference_state
+    mass = p * engine.left.area * clearance / (287.0 * T)
+    fuel = mass * 0.55 / (0.55 + engine.left.fuel.air_fuel_ratio)
+    gives = engine.left.fuel.lower_heating_value
+    energy = saleg.simulate(engine, 0.4).energy
+    released = 2.0 * 0.95 * 0.85 * fuel * gives  # both cylinders; at 0.55 the curve says 0.85
+    assert energy.released == pytest.approx(released, rel=1e-6)
+    assert energy.unburnt == pytest.approx(2.0 * fuel * gives - released, rel=1e-6)
 
 
 def test_instant_release_at_dead_centre_is_constant_volume_combustion():

@@ -88,6 +88,11 @@ def misfires_happens(P: Any, side: int, charge_number: float) -> float:
     return _chamber(P, side).misfires.happens(charge_number)
 
 
+def completeness_share(P: Any, side: int, gas: Gas, charge: Charge) -> float:
+    """Share of the fuel that burns."""
+    return _chamber(P, side).completeness.share(gas, charge)
+
+
 def gas_exchange_charge(
     P: Any,
     side: int,

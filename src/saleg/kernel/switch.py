@@ -77,6 +77,7 @@ from saleg.kernel.needs import CONTENTS_ARE_WANTED, CRANKCASE_IS_WANTED
 from saleg.kernel.rhs import charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
+    completeness_share,
     friction_at_dead_centre,
     gas_exchange_charge,
     gas_properties_gamma,
@@ -151,14 +152,16 @@ def ignite(P, E, C, side, y, motored):
     """Start of combustion: the charge burns as far as fuel and air allow (Eq. 53)."""
     c = C[side]
     gas = gas_of(E, C, side, y, motored)
-    c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side, y))
+    charge = charge_of(E, C, side, y)
+    c.duration = heat_release_duration(P, side, gas, charge)
     c.mode = BURNING
     c.armed = DISARMED
     c.t_ignition = E.t
     c.t_end = E.t + c.duration
     if c.duration > 0.0:
         E.next_step = min(E.next_step, FIRST_OF_BURN * c.duration)
-    c.fuel_to_burn = c.combustion_efficiency * min(c.fuel, c.air / c.air_fuel_ratio)
+    share = c.combustion_efficiency * completeness_share(P, side, gas, charge)
+    c.fuel_to_burn = share * min(c.fuel, c.air / c.air_fuel_ratio)
     c.mass_lit = mass_of(C, side, y)
     c.ignition_time = E.t
     c.ignition_height = gas.clearance

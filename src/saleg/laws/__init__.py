@@ -12,6 +12,7 @@ from saleg.laws.alternator import (
 from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
 from saleg.laws.base import (
     Alternator,
+    Completeness,
     FlowExchange,
     Friction,
     GasExchange,
@@ -28,6 +29,7 @@ from saleg.laws.base import (
     Wall,
 )
 from saleg.laws.choice import any_of, where
+from saleg.laws.completeness import CompleteCombustion, CompletenessByRatio
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     ActuatorLaw,
@@ -102,6 +104,9 @@ __all__ = [
     "Charge",
     "CircuitAlternator",
     "Commands",
+    "CompleteCombustion",
+    "Completeness",
+    "CompletenessByRatio",
     "CompressionThreshold",
     "ConstantForce",
     "ConstantFriction",

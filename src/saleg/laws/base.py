@@ -184,6 +184,21 @@ class Misfires(Law):
         raise NotImplementedError
 
 
+class Completeness(Law):
+    """Completeness of the combustion: the share of a charge's fuel that can burn."""
+
+    slot = "completeness"
+    compiled = ("share",)
+
+    def share(self, gas: Gas, charge: Charge) -> float:
+        """Share of the fuel that burns [-], asked once, at the start of combustion.
+
+        Of the fuel there is air for, and times the `combustion_efficiency` of the chamber. What
+        does not burn stays in the gas and leaves with the exhaust.
+        """
+        raise NotImplementedError
+
+
 class GasExchange(Law):
     """Gas exchange of a ported cylinder.
 
@@ -396,6 +411,7 @@ CHAMBER_SLOTS: dict[str, type[Law]] = {
         Ignition,
         GasExchange,
         Misfires,
+        Completeness,
         Leak,
         Supply,
         Wall,

@@ -271,8 +271,10 @@ class RunningEngine:
         """Begin to release the heat of what fuel and air can burn."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, CombustionChamber)
-        c.duration = chamber.heat_release.duration(self.gas(side), self.charge(side))
+        gas, charge = self.gas(side), self.charge(side)
+        c.duration = chamber.heat_release.duration(gas, charge)
         burnable = min(c.fuel, c.air / chamber.fuel.air_fuel_ratio)
+        burnable *= chamber.completeness.share(gas, charge)
         c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
         c.mode, c.armed, c.t_ignition, c.mass_lit = layout.BURNING, 0.0, self.t, c.mass
         self.totals[side].ignition_time = self.t
