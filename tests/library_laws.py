@@ -22,6 +22,7 @@ LAWS = [
     laws.TabulatedDelay(),
     laws.SparkAtClearance(),
     laws.SparkAfterDelay(),
+    laws.SparkBeforeDeadCentre(),
     laws.IgnitionAtPressure(),
     laws.IgnitionAtDeadCentre(),
     laws.NoMisfires(),

@@ -16,6 +16,7 @@ ENGINES = {
         **{
             "heat_transfer": laws.Woschni(),
             "heat_release": laws.DoubleWiebe(premixed_end=0.4, diffusion_start=0.0),
+            "left.ignition": laws.SparkBeforeDeadCentre(1.2e-3),
             "right.ignition": laws.SparkAtClearance(0.016),
             "alternator": laws.CircuitAlternator(),
             "springs": laws.ProgressiveSprings((0.0, 0.05, 0.1), (25e3, 30e3, 60e3)),
@@ -87,6 +88,17 @@ def test_spark_comes_at_its_clearance():
     clearance = BASE.get("half_stroke") - sparks.x
     assert len(sparks) > 5
     np.testing.assert_allclose(clearance, 0.016, rtol=1e-12)
+
+
+def test_spark_comes_a_time_before_the_dead_centre_foreseen():
+    run = saleg.simulate(ENGINES["woschni, double Wiebe, circuit"], 0.25, rtol=1e-9)
+    sparks = run.events[(run.events.event == "ignition") & (run.events.side == "left")].t.values
+    ends, durations = run.strokes["t"], run.strokes["duration"]
+    strokes = np.searchsorted(ends, sparks[1:])  # the first is the start's
+    foreseen = ends[strokes - 1] + durations[strokes - 1] - 1.2e-3
+    assert len(strokes) > 5
+    np.testing.assert_allclose(sparks[1:], foreseen, rtol=0, atol=1e-9)
+    assert np.ptp(durations) > 1e-4  # it was not steady
 
 
 def test_pressure_is_what_lights_a_charge():

@@ -240,6 +240,7 @@ CHAMBER_RECORD = np.dtype(
             "p_closing",
             "T_closing",
             "V_closing",
+            "time_to_dead_centre",
             "t_ignition",
             "t_end",
             "duration",

@@ -173,6 +173,7 @@ def charge_of(E, C, side, y):
         T=c.T_closing,
         V=c.V_closing,
         swept_volume=c.area * E.stroke,
+        time_to_dead_centre=c.time_to_dead_centre,
     )
 
 

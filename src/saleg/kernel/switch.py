@@ -1,6 +1,6 @@
 """Changes at an event: modes switch, charges are composed, regulators act."""
 
-from math import isfinite, log
+from math import inf, isfinite, log
 
 from saleg.kernel.breathing import (
     breathes,
@@ -239,11 +239,11 @@ def open_ports(P, E, C, side, y):
 def close_ports(P, E, C, side, y):
     """Compose the fresh charge and begin to compress it."""
     if by_flow(C, side):
-        trap_charge(P, C, side, y)
+        trap_charge(P, E, C, side, y)
         return
     before = internal_energy(P, C, side, y)
     c = C[side]
-    compose_charge(P, C, side, y, c.intake_pressure, c.intake_temperature)
+    compose_charge(P, E, C, side, y, c.intake_pressure, c.intake_temperature)
     c.exhaust_energy += before - internal_energy(P, C, side, y)
 
 
@@ -257,13 +257,13 @@ def renew_charge(P, E, C, side, y):
     volume_ratio = c.half_stroke / clearance_of(C, side, y[X])
     p = c.intake_pressure * volume_ratio**c.curve_exponent
     T = c.intake_temperature * volume_ratio ** (c.curve_exponent - 1.0)
-    compose_charge(P, C, side, y, p, T)
+    compose_charge(P, E, C, side, y, p, T)
     c.renewal_due = 0.0
     c.exhaust_energy += before - internal_energy(P, C, side, y)
 
 
 @compiled
-def compose_charge(P, C, side, y, p, T):
+def compose_charge(P, E, C, side, y, p, T):
     """Compose a fresh charge at a pressure and a temperature from the contents of the chamber."""
     c = C[side]
     clearance = clearance_of(C, side, y[X])
@@ -275,34 +275,41 @@ def compose_charge(P, C, side, y, p, T):
     c.fresh_fuel_energy += fresh * c.lower_heating_value
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
     c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
-    arm_charge(P, C, side, y, p, T, volume)
+    arm_charge(P, E, C, side, y, p, T, volume)
     put_contents(C, side, y)
     y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
 
 
 @inline
-def trap_charge(P, C, side, y):
+def trap_charge(P, E, C, side, y):
     """Close the ports on what has flowed in and what is left."""
     c = C[side]
     p, T = pressure_and_temperature(C, side, y)
     c.fresh = y[FRESH + side]
-    arm_charge(P, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
+    arm_charge(P, E, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
     y[MOTORED + side] = y[THETA + side]
 
 
 @inline
-def arm_charge(P, C, side, y, p, T, volume):
+def arm_charge(P, E, C, side, y, p, T, volume):
     """Take a charge for the one now trapped at a pressure, a temperature and a volume."""
     c = C[side]
     c.equivalence_ratio = c.fuel * c.air_fuel_ratio / max(c.air, 1e-300)
     c.p_closing, c.T_closing, c.V_closing = p, T, volume
+    c.time_to_dead_centre = E.t_dead_centre + last_duration(E) - E.t
     c.mode = CLOSED
     c.charge_number += 1.0
     c.armed = ARMED if c.fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
     y[IGNITION + side] = 0.0
+
+
+@inline
+def last_duration(E):
+    """Duration of the stroke before the present one [s]; infinite if there was none."""
+    return E.stroke / E.mean_piston_speed if E.mean_piston_speed > 0.0 else inf
 
 
 @compiled

@@ -72,6 +72,7 @@ from saleg.laws.ignition import (
     RCMIgnitionPascal,
     SparkAfterDelay,
     SparkAtClearance,
+    SparkBeforeDeadCentre,
     TabulatedDelay,
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
@@ -176,6 +177,7 @@ __all__ = [
     "SinusoidalMotor",
     "SparkAfterDelay",
     "SparkAtClearance",
+    "SparkBeforeDeadCentre",
     "Springs",
     "StateLogic",
     "SteadyMotor",

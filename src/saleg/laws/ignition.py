@@ -182,6 +182,27 @@ class SparkAfterDelay(Ignition):
 
 
 @dataclass(frozen=True)
+class SparkBeforeDeadCentre(Ignition):
+    """A spark some time before the dead centre, which is foreseen from the stroke before.
+
+    No crank tells where the dead centre will be. Counted is from the last one, as if the stroke
+    were to last as long as the one before it; in a steady engine with two equal cylinders it does.
+    A dead centre foreseen nearer than `advance` as the ports close has the spark at once.
+
+    Parameters
+    ----------
+    advance : float
+        Time from the spark to the dead centre foreseen [s].
+    """
+
+    advance: float = quantity("s", default=1e-3, low=0, usual=(1e-5, 0.2))
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]: one over the time from port closing to the spark."""
+        return 1.0 / max(charge.time_to_dead_centre - self.advance, 1e-9)
+
+
+@dataclass(frozen=True)
 class IgnitionAtPressure(Ignition):
     """Ignition at a pressure, as Chapter 2 has it (2.5).
 

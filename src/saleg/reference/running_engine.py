@@ -121,8 +121,10 @@ class RunningEngine:
         self = cls(engine, 0.0, y, machine, chambers, totals, x)
         for side in (0, 1):
             fill(engine, chambers, y, side)
-        self._hold(stroke_before(engine, start, self.piston_area))
+        before = stroke_before(engine, start, self.piston_area)
+        self._hold(before)
         for side, held in enumerate(contents):
+            chambers[side].time_to_dead_centre = before.duration
             if held.burning and held.fuel > 0.0:
                 self.ignite(side)
         acceleration = self.rates()[VELOCITY]
@@ -387,6 +389,9 @@ class RunningEngine:
         ratio = chamber.fuel.air_fuel_ratio
         c.equivalence_ratio = ratio * c.fuel / c.air if c.fuel > 0.0 else 0.0
         c.p_closing, c.T_closing, c.V_closing = p, T, c.area * self.clearance(side)
+        speed = self.machine.mean_piston_speed
+        lasts = self.machine.stroke / speed if speed > 0.0 else math.inf
+        c.time_to_dead_centre = self.t_dead_centre + lasts - self.t
         c.number += 1.0
         c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:

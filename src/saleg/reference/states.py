@@ -65,6 +65,8 @@ class ChamberState:
         The charge [kg]; of all fuel to all air [-].
     p_closing, T_closing, V_closing : float
         Its state at port closing [Pa, K, m^3].
+    time_to_dead_centre : float
+        From there to the dead centre, as the stroke before would have it [s].
     mode : float
         Open, closed or burning.
     armed : float
@@ -102,6 +104,7 @@ class ChamberState:
     V_closing: float
     mode: float
     armed: float
+    time_to_dead_centre: float = math.inf
     t_ignition: float = 0.0
     duration: float = 1.0
     heat: float = 0.0
