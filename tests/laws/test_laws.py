@@ -16,7 +16,7 @@ from saleg.compiler.source import Borrowed
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.compiler.text import CHOICE, methods_text
 from saleg.kernel.logarithms import Logarithms
-from saleg.laws import Charge, Gas, Motion, Stroke
+from saleg.laws import Charge, Gas, Motion, Parts, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law
 from saleg.quantities import problems
 
@@ -29,6 +29,7 @@ GASES = [
         (3e4, 180.0, 1e-6, 60.0, 0.0),
     )
 ]
+PARTS = Parts(1.5e-5, 4.3e-4, 5.5e-5)
 CHARGE = Charge(5e-4, 1.5e-5, 4.3e-4, 5.5e-5, 0.6, 1.05e5, 325.0, 4.3e-4, 5.8e-4)
 MOTIONS = [
     Motion(0.1, x, v, d, i)
@@ -45,6 +46,8 @@ ARGUMENTS = {
     "gamma": [(T,) for T in (150.0, 300.0, 1000.0, 2500.0, 3500.0)],
     "internal_energy": [(T,) for T in (150.0, 300.0, 1000.0, 2500.0, 3500.0)],
     "breakpoint": [()],
+    "heat_capacity_of": [(T, PARTS) for T in (150.0, 300.0, 1000.0, 2500.0)],
+    "energy_of": [(T, PARTS) for T in (150.0, 300.0, 1000.0, 2500.0)],
     "coefficient": [(gas, CHARGE) for gas in GASES],
     "duration": [(gas, CHARGE) for gas in GASES],
     "rate": [(gas, CHARGE) for gas in GASES],

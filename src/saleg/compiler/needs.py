@@ -33,18 +33,22 @@ class Needs(NamedTuple):
     chambers : frozenset of str
         States of the chambers that laws ask for, by their names in
         :data:`saleg.kernel.layout.CHAMBER_STATES`.
+    composition : bool
+        Whether the gas of a chamber changes with its composition.
     """
 
     motored_pressure: bool
     current: bool
     chambers: frozenset[str] = frozenset()
+    composition: bool = False
 
     @classmethod
     def of(cls, classes: Sequence[type[Law]], motored_pressure: bool) -> Needs:
         """Needs of some law classes."""
         alternators = [law for law in classes if issubclass(law, Alternator)]
         has_rate = any(law.current_rate is not Alternator.current_rate for law in alternators)
-        return cls(motored_pressure, has_rate, asked_for(classes))
+        composition = any(getattr(law, "follows_composition", False) for law in classes)
+        return cls(motored_pressure, has_rate, asked_for(classes), composition)
 
     @property
     def states(self) -> list[Stretch]:
@@ -81,6 +85,7 @@ class Needs(NamedTuple):
         return (
             f"MOTORED_PRESSURE_IS_WANTED = {self.motored_pressure}\n"
             f"CURRENT_IS_WANTED = {self.current}\n"
+            f"COMPOSITION_IS_WANTED = {self.composition}\n"
             f"CONTENTS_ARE_WANTED = {'contents' in self.chambers}\n"
             f"WALL_TEMPERATURE_IS_WANTED = {'wall_temperature' in self.chambers}\n"
             f"CRANKCASE_IS_WANTED = {'crankcase' in self.chambers}\n"

@@ -282,6 +282,11 @@ CHAMBER_RECORD = np.dtype(
     # Whether its masses are states, and gas flows through its ports; mass when lit; of what
     # flowed in since the ports opened, what was left when they closed.
     + [(name, np.float64) for name in ("breathes", "by_flow", "mass_lit", "fresh")]
+    # Whether its gas changes with its composition, and the specific gas constants of its parts.
+    + [
+        (name, np.float64)
+        for name in ("follows", "fuel_constant", "air_constant", "burnt_constant")
+    ]
 )
 
 #: One row per stroke, written at the dead centre that ends it. Values per side are left, right.

@@ -6,9 +6,14 @@ from saleg.kernel.breathing import (
     breathes,
     by_flow,
     crankcase_of,
+    energy_of,
+    follows,
+    gamma_of,
     has_own_pressure,
+    mass_gas_of,
     mass_of,
     take_contents,
+    weighted,
 )
 from saleg.kernel.control import ask, obey
 from saleg.kernel.events import pressure_and_temperature
@@ -80,7 +85,6 @@ from saleg.kernel.slots import (
     completeness_share,
     friction_at_dead_centre,
     gas_exchange_charge,
-    gas_properties_gamma,
     gas_properties_internal_energy,
     heat_release_burnt_fraction,
     heat_release_duration,
@@ -89,11 +93,13 @@ from saleg.kernel.slots import (
     springs_energy,
 )
 from saleg.kernel.state import begin_stroke, clearance_of
-from saleg.laws.arguments import Motion, Stroke
+from saleg.laws.arguments import Motion, Parts, Stroke
 from saleg.laws.choice import where
 
 # Longest first step of a combustion, over its duration.
 FIRST_OF_BURN = 0.1
+# Rounds in which the mass of a charge whose gas depends on its composition is found to rounding.
+MASS_ITERATIONS = 12
 
 
 @inline
@@ -140,7 +146,7 @@ def internal_energy(P, C, side, y):
     T = c.T_closing
     if has_own_pressure(C, side):
         _, T = pressure_and_temperature(C, side, y)
-    energy = mass_of(C, side, y) * gas_properties_internal_energy(P, side, T)
+    energy = energy_of(P, C, side, y, T)
     if CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0:
         _, T = crankcase_of(P, C, side, y)
         energy += y[CRANKCASE_MASS + side] * gas_properties_internal_energy(P, side, T)
@@ -166,26 +172,26 @@ def ignite(P, E, C, side, y, motored):
     c.ignition_time = E.t
     c.ignition_height = gas.clearance
     if c.duration <= 0.0:
-        burn_at_once(P, C, side, y, gas.T)
-        burn_contents(P, E, C, side)
+        burn_at_once(P, E, C, side, y, gas.T)
         c.mode = CLOSED
-        put_contents(C, side, y)
 
 
 @compiled
-def burn_at_once(P, C, side, y, T):
+def burn_at_once(P, E, C, side, y, T):
     """Release all heat at constant volume: internal energy and temperature (by Newton) jump."""
     c = C[side]
     heat = c.fuel_to_burn * c.lower_heating_value * heat_release_burnt_fraction(P, side, 1.0)
-    wanted = gas_properties_internal_energy(P, side, T) + heat / c.mass
-    hot = T
+    wanted, cold = energy_of(P, C, side, y, T) + heat, mass_gas_of(C, side, y) * T
+    burn_contents(P, E, C, side)
+    put_contents(C, side, y)
+    hot, mass_gas = T, mass_gas_of(C, side, y)
     for _ in range(50):
-        excess = gas_properties_internal_energy(P, side, hot) - wanted
-        change = excess * (gas_properties_gamma(P, side, hot) - 1.0) / c.gas_constant
+        excess = energy_of(P, C, side, y, hot) - wanted
+        change = excess * (gamma_of(P, C, side, y, hot) - 1.0) / mass_gas
         hot -= change
         if abs(change) <= 1e-15 * hot:
             break
-    y[THETA + side] += log(hot / T)
+    y[THETA + side] += log(hot * mass_gas / cold)
     y[N_STATE + HEAT_RELEASED + side] += heat
 
 
@@ -269,9 +275,11 @@ def compose_charge(P, E, C, side, y, p, T):
     clearance = clearance_of(C, side, y[X])
     volume = c.area * clearance
     mass = p * volume / (c.gas_constant * T)
-    fuel, air, burnt, fresh = gas_exchange_charge(
-        P, side, mass, c.fuel, c.air, c.burnt, c.equivalence_ratio_wanted, c.air_fuel_ratio
-    )
+    fuel, air, burnt, fresh = metered(P, C, side, mass)
+    if follows(C, side):  # what a volume holds depends on what it is
+        for _ in range(MASS_ITERATIONS):
+            mass *= p * volume / (T * weighted(C, side, Parts(fuel, air, burnt)))
+            fuel, air, burnt, fresh = metered(P, C, side, mass)
     c.fresh_fuel_energy += fresh * c.lower_heating_value
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
     c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
@@ -279,6 +287,15 @@ def compose_charge(P, E, C, side, y, p, T):
     put_contents(C, side, y)
     y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
+
+
+@inline
+def metered(P, C, side, mass):
+    """Charge of a mass from what a chamber holds: fuel, air, burnt gas, fresh fuel [kg]."""
+    c = C[side]
+    return gas_exchange_charge(
+        P, side, mass, c.fuel, c.air, c.burnt, c.equivalence_ratio_wanted, c.air_fuel_ratio
+    )
 
 
 @inline
@@ -369,6 +386,8 @@ def write_passed(C, side, y, row):
     row.exhaust_energy[side] += y[ENTHALPY_OUT + side]
     row.fresh_mass[side] = c.fresh
     row.closing_mass[side] = c.p_closing * c.V_closing / (c.gas_constant * c.T_closing)
+    if follows(C, side):  # its mass does not change
+        row.closing_mass[side] = c.mass
     row.closing_temperature[side] = c.T_closing
     row.supplied_mass[side] = y[SUPPLIED + side]
     row.expelled_mass[side] = y[EXPELLED + side]

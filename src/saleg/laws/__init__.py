@@ -9,7 +9,7 @@ from saleg.laws.alternator import (
     LinearLoad,
     SinusoidalMotor,
 )
-from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
+from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Parts, Signals, Stroke
 from saleg.laws.base import (
     Alternator,
     Completeness,
@@ -54,7 +54,7 @@ from saleg.laws.friction import (
     ViscousFriction,
 )
 from saleg.laws.gas_exchange import InstantExchange, PortFlow
-from saleg.laws.gas_properties import ChangGas, ConstantGamma, MixtureGas
+from saleg.laws.gas_properties import BurningGas, ChangGas, ConstantGamma, MixtureGas
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
     Annand,
@@ -99,6 +99,7 @@ __all__ = [
     "Annand",
     "BlairViscousFriction",
     "BurnProfile",
+    "BurningGas",
     "CFRIgnition",
     "Chang",
     "ChangGas",
@@ -159,6 +160,7 @@ __all__ = [
     "NoLeak",
     "NoMisfires",
     "OneSidedSprings",
+    "Parts",
     "Plenum",
     "PolytropicLoss",
     "PortFlow",

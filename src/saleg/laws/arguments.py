@@ -76,6 +76,20 @@ class Charge(NamedTuple):
     time_to_dead_centre: float = math.inf
 
 
+class Parts(NamedTuple):
+    """Parts of a gas, or their changes.
+
+    Attributes
+    ----------
+    fuel, air, burnt : float
+        Masses of fuel, air and stoichiometric burnt gas [kg], or their rates [kg/s].
+    """
+
+    fuel: float
+    air: float
+    burnt: float
+
+
 class Motion(NamedTuple):
     """State of motion of the translator at one instant.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import ClassVar, NamedTuple
 
-from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+from saleg.laws.arguments import Charge, Gas, Motion, Parts, Stroke
 from saleg.quantities import Quantities
 
 
@@ -81,11 +81,23 @@ class Law(Quantities):
 
 
 class GasProperties(Law):
-    """Caloric properties of the ideal gas in a chamber; needs a field ``gas_constant`` [J/kg/K]."""
+    """Caloric properties of the ideal gas in a chamber; needs a field ``gas_constant`` [J/kg/K].
+
+    One gas for the whole cycle; or, of a law that follows the composition, the sum of fuel, air and
+    burnt gas as they stand in the chamber. That one asks for the state "contents" and has
+    :meth:`heat_capacity_of`, :meth:`energy_of` and :attr:`gas_constants` as well; gamma and
+    internal energy are then those of a fresh charge, for what happens before a run.
+
+    Attributes
+    ----------
+    follows_composition : bool
+        Whether it does.
+    """
 
     slot = "gas_properties"
-    compiled = ("gamma", "internal_energy", "breakpoint")
-    optional = ("breakpoint",)
+    compiled = ("gamma", "internal_energy", "breakpoint", "heat_capacity_of", "energy_of")
+    optional = ("breakpoint", "heat_capacity_of", "energy_of")
+    follows_composition: ClassVar[bool] = False
     earlier_names: ClassVar[dict[str, str]] = {"kink": "breakpoint"}
 
     gas_constant: float
@@ -101,6 +113,23 @@ class GasProperties(Law):
     def breakpoint(self) -> float:
         """Temperature at which gamma is not smooth [K], so that steps end there; 0 for none."""
         return 0.0
+
+    def heat_capacity_of(self, T: float, parts: Parts) -> float:
+        """Heat capacity of parts of the gas at constant volume [J/K], the sum over them."""
+        return 0.0
+
+    def energy_of(self, T: float, parts: Parts) -> float:
+        """Internal energy of parts of the gas [J], or its rate [W]: the sum over them.
+
+        Of each it is the enthalpy above the temperature at which the heating value is told, less
+        ``R T``; so the heating value is all that combustion adds.
+        """
+        return 0.0
+
+    @property
+    def gas_constants(self) -> tuple[float, float, float]:
+        """Specific gas constants of fuel, air and burnt gas [J/kg/K]."""
+        return (self.gas_constant,) * 3
 
 
 class HeatTransfer(Law):

@@ -349,7 +349,7 @@ class RunningEngine:
             return
         p, T = chamber.intake.pressure, chamber.intake.temperature
         before = self.internal_energy(side)
-        c.mass = p * c.area * self.clearance(side) / (c.gas_constant * T)
+        c.mass = self.mass_that_fits(side, p, T)
         self._compose(side, p, T)
         self.totals[side].exhaust_energy += before - self.internal_energy(side)
 
@@ -365,8 +365,31 @@ class RunningEngine:
         if c.breathes:  # what has leaked is made good
             c.mass = c.mass_trapped
         T = p * c.area * self.clearance(side) / (c.mass * c.gas_constant)
+        if c.follows:
+            T = chamber.temperature * (p / chamber.pressure) ** (1.0 - 1.0 / chamber.curve_exponent)
+            c.mass = self.mass_that_fits(side, p, T)
         self._compose(side, p, T)
         self.totals[side].exhaust_energy += before - self.internal_energy(side)
+
+    def mass_that_fits(self, side: int, p: float, T: float) -> float:
+        """Mass of a fresh charge at a pressure and a temperature [kg]."""
+        from scipy.optimize import brentq
+
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, CombustionChamber)
+        wanted = p * c.area * self.clearance(side) / T
+        if not c.follows:
+            return wanted / c.gas_constant
+        metered = (chamber.equivalence_ratio, chamber.fuel.air_fuel_ratio)
+
+        def lacking(mass: float) -> float:
+            fuel, air, burnt, _ = chamber.gas_exchange.charge(
+                mass, c.fuel, c.air, c.burnt, *metered
+            )
+            held = fuel * c.fuel_constant + air * c.air_constant + burnt * c.burnt_constant
+            return held - wanted
+
+        return float(brentq(lacking, 0.0, 2.0 * wanted / c.gas_constant, xtol=1e-19, rtol=1e-14))
 
     def _compose(self, side: int, p: float, T: float) -> None:
         """Make the charge of what was retained and what is metered now."""

@@ -123,10 +123,24 @@ class ChamberState:
     lower_heating_value: float = 0.0
     mass_lit: float = 1.0
     fresh: float = 0.0
+    follows: float = 0.0
+    fuel_constant: float = 0.0
+    air_constant: float = 0.0
+    burnt_constant: float = 0.0
+
+    @property
+    def constant_now(self) -> float:
+        """Specific gas constant of what stands in the chamber [J/kg/K]."""
+        if self.follows == 0.0:
+            return self.gas_constant
+        fuel, air = self.fuel * self.fuel_constant, self.air * self.air_constant
+        return (fuel + air + self.burnt * self.burnt_constant) / self.mass
 
     @property
     def mass_trapped(self) -> float:
         """Mass of the charge as its ports closed [kg]."""
+        if self.follows > 0.0:  # none comes or goes
+            return self.mass
         return self.p_closing * self.V_closing / (self.gas_constant * self.T_closing)
 
 
@@ -213,6 +227,9 @@ def _chamber_state(chamber: GasChamber, held: Contents, sign: float, x: float) -
 def _let_breathe(c: ChamberState, chamber: Chamber, x: float) -> None:
     """Note which states the laws of a chamber ask for, and what they need."""
     c.breathes = float("contents" in chamber.states)
+    if isinstance(chamber, GasChamber):
+        c.follows = float(chamber.gas_properties.follows_composition)
+        c.fuel_constant, c.air_constant, c.burnt_constant = chamber.gas_properties.gas_constants
     c.crankcase = float("crankcase" in chamber.states)
     c.wall_follows = float("wall_temperature" in chamber.states)
     c.intake_pressure, c.intake_temperature, _ = chamber.reference_state

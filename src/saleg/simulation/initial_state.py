@@ -262,7 +262,10 @@ def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
     if isinstance(chamber, GasChamber):
         c.bore = chamber.bore
         c.wall_temperature = chamber.wall_temperature
-        c.gas_constant = chamber.gas_properties.gas_constant
+        gas = chamber.gas_properties
+        c.gas_constant = gas.gas_constant
+        c.follows = float(gas.follows_composition)
+        c.fuel_constant, c.air_constant, c.burnt_constant = gas.gas_constants
     full = chamber.reference_state
     c.p_closing = c.intake_pressure = full.pressure
     c.T_closing = c.intake_temperature = full.temperature
