@@ -1,11 +1,14 @@
 """One row of the history: everything that can be seen at an instant."""
 
-from saleg.kernel.breathing import has_own_pressure
+from saleg.kernel.breathing import breathes, has_own_pressure, mass_of, wall_of
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    BURNT,
     CURRENT,
     ELECTRICAL_ENERGY,
+    FRAME_V,
+    FRAME_X,
     HEAT_LOST,
     HEAT_RELEASED,
     IGNITION,
@@ -14,9 +17,10 @@ from saleg.kernel.layout import (
     V,
     X,
 )
+from saleg.kernel.needs import FRAME_IS_WANTED
 from saleg.kernel.peaks import pressure_rate
 from saleg.kernel.rhs import alternator_action, gas_of
-from saleg.kernel.slots import friction_force, springs_force
+from saleg.kernel.slots import frame_transmitted, friction_force, springs_force
 from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Motion
 
@@ -46,9 +50,18 @@ def observe(P, E, C, y, dy, motored, row):
         row.heat_loss[side] = dy[N_STATE + HEAT_LOST + side]
         row.ignition[side] = y[IGNITION + side]
         row.mode[side] = C[side].mode
+        row.mass[side] = mass_of(C, side, y)
+        row.burnt[side] = y[BURNT + side] if breathes(C, side) else C[side].burnt
+        row.wall_temperature[side] = wall_of(C, side, y)
     row.spring_force = springs_force(P, motion) + E.back_force
     row.friction_force = friction_force(P, E.friction_held, motion)
     row.alternator_force, _ = alternator_action(P, E, E.t, motion)
     row.electrical_power = dy[N_STATE + ELECTRICAL_ENERGY]
     row.load_weight = E.load_weight
     row.current = y[CURRENT]
+    acceleration = dy[V]
+    if FRAME_IS_WANTED:
+        acceleration += dy[FRAME_V]
+        row.frame_x, row.frame_v = y[FRAME_X], y[FRAME_V]
+    force = -E.mass * acceleration
+    row.shaking_force = frame_transmitted(P, force, row.frame_x, row.frame_v)

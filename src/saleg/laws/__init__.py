@@ -14,6 +14,7 @@ from saleg.laws.base import (
     Alternator,
     Completeness,
     FlowExchange,
+    Frame,
     Friction,
     GasExchange,
     GasProperties,
@@ -45,6 +46,7 @@ from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad
 from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.earlier_names import accept_earlier_names
+from saleg.laws.frame import FixedFrame, MountedFrame
 from saleg.laws.friction import (
     BlairViscousFriction,
     ConstantFriction,
@@ -120,10 +122,12 @@ __all__ = [
     "DoubleWiebe",
     "Drive",
     "EndStops",
+    "FixedFrame",
     "FixedWall",
     "FlowExchange",
     "FluxProfile",
     "ForceMap",
+    "Frame",
     "Friction",
     "FrictionShare",
     "FuelControl",
@@ -153,6 +157,7 @@ __all__ = [
     "MixtureGas",
     "Motion",
     "MotorControl",
+    "MountedFrame",
     "NeverMotored",
     "NoFriction",
     "NoFuel",

@@ -86,12 +86,18 @@ HISTORY_UNITS = {
     "heat_loss": "W",
     "ignition": "-",
     "mode": "-",
+    "mass": "kg",
+    "burnt": "kg",
+    "wall_temperature": "K",
     "spring_force": "N",
     "friction_force": "N",
     "alternator_force": "N",
     "electrical_power": "W",
     "load_weight": "-",
     "current": "A",
+    "shaking_force": "N",
+    "frame_x": "m",
+    "frame_v": "m/s",
 }
 
 
