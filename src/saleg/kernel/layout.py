@@ -294,6 +294,8 @@ CHAMBER_RECORD = np.dtype(
         (name, np.float64)
         for name in ("follows", "fuel_constant", "air_constant", "burnt_constant")
     ]
+    # Fuel metered to the coming charge over that commanded.
+    + [("fuel_factor", np.float64)]
 )
 
 #: One row per stroke, written at the dead centre that ends it. Values per side are left, right.

@@ -24,6 +24,7 @@ from saleg.laws.base import (
     Law,
     Leak,
     Misfires,
+    Scatter,
     Springs,
     Supply,
     Validity,
@@ -79,6 +80,7 @@ from saleg.laws.ignition import (
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
+from saleg.laws.scatter import CyclicVariability, NoScatter
 from saleg.laws.springs import (
     AirSprings,
     EndStops,
@@ -118,6 +120,7 @@ __all__ = [
     "CosineForce",
     "CoulombViscousFriction",
     "Crankcase",
+    "CyclicVariability",
     "DeadCentreRegulator",
     "DoubleWiebe",
     "Drive",
@@ -164,6 +167,7 @@ __all__ = [
     "NoHeatTransfer",
     "NoLeak",
     "NoMisfires",
+    "NoScatter",
     "OneSidedSprings",
     "Parts",
     "Plenum",
@@ -179,6 +183,7 @@ __all__ = [
     "ResonanceSearch",
     "RingLeak",
     "ScaledLoad",
+    "Scatter",
     "ScheduledMisfires",
     "Signals",
     "SinusoidalMotor",

@@ -277,6 +277,7 @@ class RunningEngine:
         assert isinstance(chamber, CombustionChamber)
         gas, charge = self.gas(side), self.charge(side)
         c.duration = chamber.heat_release.duration(gas, charge)
+        c.duration *= self.engine.scatter.duration_factor(c.number, float(side))
         burnable = min(c.fuel, c.air / chamber.fuel.air_fuel_ratio)
         burnable *= chamber.completeness.share(gas, charge)
         c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
@@ -333,6 +334,7 @@ class RunningEngine:
             self.end_combustion(side)
         c.mode, c.armed = layout.OPEN, 0.0
         self.y[INTEGRAL + side] = 0.0
+        c.fuel_factor = self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
         if c.by_flow:
             self.y[layout.FRESH + side] = 0.0
             return
@@ -377,30 +379,34 @@ class RunningEngine:
         """Mass of a fresh charge at a pressure and a temperature [kg]."""
         from scipy.optimize import brentq
 
-        c, chamber = self.chambers[side], self.engine.chambers[side]
-        assert isinstance(chamber, CombustionChamber)
+        c = self.chambers[side]
         wanted = p * c.area * self.clearance(side) / T
         if not c.follows:
             return wanted / c.gas_constant
-        metered = (chamber.equivalence_ratio, chamber.fuel.air_fuel_ratio)
 
         def lacking(mass: float) -> float:
-            fuel, air, burnt, _ = chamber.gas_exchange.charge(
-                mass, c.fuel, c.air, c.burnt, *metered
-            )
+            fuel, air, burnt, _ = self._metered(side, mass)
             held = fuel * c.fuel_constant + air * c.air_constant + burnt * c.burnt_constant
             return held - wanted
 
         return float(brentq(lacking, 0.0, 2.0 * wanted / c.gas_constant, xtol=1e-19, rtol=1e-14))
 
+    def _metered(self, side: int, mass: float) -> tuple[float, float, float, float]:
+        """Fuel, air, burnt gas and fresh fuel of the coming charge [kg], of a mass."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, CombustionChamber)
+        wanted = chamber.equivalence_ratio
+        wanted *= self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
+        return chamber.gas_exchange.charge(
+            mass, c.fuel, c.air, c.burnt, wanted, chamber.fuel.air_fuel_ratio
+        )
+
     def _compose(self, side: int, p: float, T: float) -> None:
         """Make the charge of what was retained and what is metered now."""
         c, chamber, totals = self.chambers[side], self.engine.chambers[side], self.totals[side]
         assert isinstance(chamber, CombustionChamber)
-        fuel_before, ratio = c.fuel, chamber.fuel.air_fuel_ratio
-        c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
-            c.mass, c.fuel, c.air, c.burnt, chamber.equivalence_ratio, ratio
-        )
+        fuel_before = c.fuel
+        c.fuel, c.air, c.burnt, fresh = self._metered(side, c.mass)
         put_state(chamber, c, self.y, side, p, T)
         self._trap(side, p, T)
         exhausted = fuel_before + fresh - c.fuel
@@ -421,7 +427,8 @@ class RunningEngine:
         c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:
             c.armed = layout.FAILING
-        self.y[INTEGRAL + side] = 0.0
+        factor = self.engine.scatter.delay_factor(c.number, float(side))
+        self.y[INTEGRAL + side] = 1.0 - factor
 
     # Dead centres.
 

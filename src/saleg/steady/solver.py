@@ -22,6 +22,7 @@ from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
+from saleg.laws import NoScatter
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import State, natural_period, prepare
@@ -357,6 +358,8 @@ def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> Steady
     quick = effort is Effort.QUICK
     if not repeats_itself(engine):
         why = "a law depends on time or counts charges"
+        if not isinstance(engine.scatter, NoScatter):
+            why = "charges scatter; the mean engine's state is that with NoScatter()"
         return not_found(engine, 0, 0, why) if quick else waited_for(engine, rtol, 0, 0, why)
     if quick:
         return _solved(engine, rtol, min(max_maps, QUICK_MAPS), quick)
