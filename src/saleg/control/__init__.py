@@ -26,6 +26,7 @@ from saleg.control.moments import (
     ports_opened_at,
 )
 from saleg.control.plant import Plant
+from saleg.control.plants import Plants
 from saleg.control.running import (
     fired_at,
     generator,
@@ -40,6 +41,7 @@ __all__ = [
     "Demand",
     "OperatingMap",
     "Plant",
+    "Plants",
     "Sensors",
     "demand_by_fuel",
     "demand_by_intake",
