@@ -31,6 +31,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.needs import (
+    COMPOSITION_IS_WANTED,
     CONTENTS_ARE_WANTED,
     CRANKCASE_IS_WANTED,
     WALL_TEMPERATURE_IS_WANTED,
@@ -39,7 +40,9 @@ from saleg.kernel.slots import (
     gas_exchange_areas,
     gas_exchange_exhaust,
     gas_exchange_fresh_share,
+    gas_properties_energy_of,
     gas_properties_gamma,
+    gas_properties_heat_capacity_of,
     gas_properties_internal_energy,
     leak_area,
     leak_beyond,
@@ -48,6 +51,7 @@ from saleg.kernel.slots import (
     supply_volume,
     wall_temperature_rate,
 )
+from saleg.laws.arguments import Parts
 from saleg.laws.choice import any_of, where
 
 # The laws decide about these three: of engines side by side, one answer holds for all.
@@ -86,8 +90,75 @@ def mass_of(C, side, y):
 
 
 @inline
+def follows(C, side):
+    """Whether the gas of a chamber changes with its composition."""
+    return COMPOSITION_IS_WANTED and C[side].follows > 0.0
+
+
+@inline
+def parts_of(y, side):
+    """What a chamber that breathes holds."""
+    return Parts(y[FUEL + side], y[AIR + side], y[BURNT + side])
+
+
+@inline
+def weighted(C, side, parts):
+    """Sum of the specific gas constants of parts of a gas, each times its mass [J/K]."""
+    c = C[side]
+    fuel, air = parts.fuel * c.fuel_constant, parts.air * c.air_constant
+    return fuel + air + parts.burnt * c.burnt_constant
+
+
+@inline
+def mass_gas_of(C, side, y):
+    """Mass of the gas in a chamber times its gas constant [J/K]."""
+    if follows(C, side):
+        return weighted(C, side, parts_of(y, side))
+    return mass_of(C, side, y) * C[side].gas_constant
+
+
+@inline
+def gamma_of(P, C, side, y, T):
+    """Ratio of specific heats of the gas in a chamber."""
+    if follows(C, side):
+        parts = parts_of(y, side)
+        heat_capacity = gas_properties_heat_capacity_of(P, side, T, parts)
+        return 1.0 + weighted(C, side, parts) / heat_capacity
+    return gas_properties_gamma(P, side, T)
+
+
+@inline
+def energy_of(P, C, side, y, T):
+    """Internal energy of the gas in a chamber [J]."""
+    if follows(C, side):
+        return gas_properties_energy_of(P, side, T, parts_of(y, side))
+    return mass_of(C, side, y) * gas_properties_internal_energy(P, side, T)
+
+
+@inline
+def burning_parts(C, side, released):
+    """Rates at which parts of a gas change as they release some heat [kg/s]."""
+    c = C[side]
+    fuel = released / c.lower_heating_value
+    return Parts(-fuel, -c.air_fuel_ratio * fuel, (1.0 + c.air_fuel_ratio) * fuel)
+
+
+@inline
+def rate_by_composition(P, C, side, y, gas, g, released):
+    """Part in the rate of the logarithm of the pressure that comes from the composition [1/s].
+
+    The number of moles changes, and so does the energy the gas has at its temperature.
+    """
+    change = burning_parts(C, side, released)
+    moles = weighted(C, side, change) / mass_gas_of(C, side, y)
+    return moles - (g - 1.0) * gas_properties_energy_of(P, side, gas.T, change) / (gas.p * gas.V)
+
+
+@inline
 def dilution(C, side, y, dy):
-    """Relative rate of the mass in a chamber that breathes [1/s]."""
+    """Relative rate of the mass in a chamber that breathes times its gas constant [1/s]."""
+    if follows(C, side):
+        return weighted(C, side, parts_of(dy, side)) / mass_gas_of(C, side, y)
     return (dy[FUEL + side] + dy[AIR + side] + dy[BURNT + side]) / mass_of(C, side, y)
 
 

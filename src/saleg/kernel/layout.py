@@ -247,6 +247,7 @@ CHAMBER_RECORD = np.dtype(
             "p_closing",
             "T_closing",
             "V_closing",
+            "time_to_dead_centre",
             "t_ignition",
             "t_end",
             "duration",
@@ -288,6 +289,11 @@ CHAMBER_RECORD = np.dtype(
     # Whether its masses are states, and gas flows through its ports; mass when lit; of what
     # flowed in since the ports opened, what was left when they closed.
     + [(name, np.float64) for name in ("breathes", "by_flow", "mass_lit", "fresh")]
+    # Whether its gas changes with its composition, and the specific gas constants of its parts.
+    + [
+        (name, np.float64)
+        for name in ("follows", "fuel_constant", "air_constant", "burnt_constant")
+    ]
     # Fuel metered to the coming charge over that commanded.
     + [("fuel_factor", np.float64)]
 )

@@ -9,9 +9,10 @@ from saleg.laws.alternator import (
     LinearLoad,
     SinusoidalMotor,
 )
-from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
+from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Parts, Signals, Stroke
 from saleg.laws.base import (
     Alternator,
+    Completeness,
     FlowExchange,
     Frame,
     Friction,
@@ -30,6 +31,7 @@ from saleg.laws.base import (
     Wall,
 )
 from saleg.laws.choice import any_of, where
+from saleg.laws.completeness import CompleteCombustion, CompletenessByRatio
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     ActuatorLaw,
@@ -55,7 +57,7 @@ from saleg.laws.friction import (
     ViscousFriction,
 )
 from saleg.laws.gas_exchange import InstantExchange, PortFlow
-from saleg.laws.gas_properties import ChangGas, ConstantGamma, MixtureGas
+from saleg.laws.gas_properties import BurningGas, ChangGas, ConstantGamma, MixtureGas
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
     Annand,
@@ -73,6 +75,7 @@ from saleg.laws.ignition import (
     RCMIgnitionPascal,
     SparkAfterDelay,
     SparkAtClearance,
+    SparkBeforeDeadCentre,
     TabulatedDelay,
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
@@ -100,12 +103,16 @@ __all__ = [
     "Annand",
     "BlairViscousFriction",
     "BurnProfile",
+    "BurningGas",
     "CFRIgnition",
     "Chang",
     "ChangGas",
     "Charge",
     "CircuitAlternator",
     "Commands",
+    "CompleteCombustion",
+    "Completeness",
+    "CompletenessByRatio",
     "CompressionThreshold",
     "ConstantForce",
     "ConstantFriction",
@@ -164,6 +171,7 @@ __all__ = [
     "NoMisfires",
     "NoScatter",
     "OneSidedSprings",
+    "Parts",
     "Plenum",
     "PolytropicLoss",
     "PortFlow",
@@ -183,6 +191,7 @@ __all__ = [
     "SinusoidalMotor",
     "SparkAfterDelay",
     "SparkAtClearance",
+    "SparkBeforeDeadCentre",
     "Springs",
     "StateLogic",
     "SteadyMotor",

@@ -59,6 +59,9 @@ class Charge(NamedTuple):
         State at port closing [Pa, K, m^3].
     swept_volume : float
         Volume swept by the latest stroke [m^3].
+    time_to_dead_centre : float
+        Time from port closing to the dead centre, if the present stroke lasts as long as the one
+        before it did [s]; infinite while none has been.
     """
 
     mass: float
@@ -70,6 +73,21 @@ class Charge(NamedTuple):
     T: float
     V: float
     swept_volume: float
+    time_to_dead_centre: float = math.inf
+
+
+class Parts(NamedTuple):
+    """Parts of a gas, or their changes.
+
+    Attributes
+    ----------
+    fuel, air, burnt : float
+        Masses of fuel, air and stoichiometric burnt gas [kg], or their rates [kg/s].
+    """
+
+    fuel: float
+    air: float
+    burnt: float
 
 
 class Motion(NamedTuple):
