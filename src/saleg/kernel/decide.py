@@ -51,4 +51,8 @@ def decide(P, memory, measured):
         phase=drive.phase,
         equivalence_ratio=fuel_control_equivalence_ratio(P, memory[3], signals),
         intake_temperature=intake_control_temperature(P, memory[4], signals),
+        sets_force=0.0,
+        force=0.0,
+        spark_advance=0.0,
+        spring_pressure=0.0,
     )

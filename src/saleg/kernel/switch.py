@@ -10,7 +10,7 @@ from saleg.kernel.breathing import (
     mass_of,
     take_contents,
 )
-from saleg.kernel.control import ask, obey
+from saleg.kernel.control import ask, obey, pressure_at_midpoint
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
@@ -245,6 +245,20 @@ def close_ports(P, E, C, side, y):
 
 
 @compiled
+def fill_chamber(P, C, side, y):
+    """Let gas of its own temperature into a bounce chamber, or out, as its pressure is commanded."""
+    c = C[side]
+    before = internal_energy(P, C, side, y)
+    ratio = c.wanted_pressure / pressure_at_midpoint(c)
+    y[THETA + side] += log(ratio)
+    y[MOTORED + side] += log(ratio)
+    c.mass, c.fuel, c.air, c.burnt = ratio * c.mass, ratio * c.fuel, ratio * c.air, ratio * c.burnt
+    put_contents(C, side, y)
+    c.renewal_due = 0.0
+    c.exhaust_energy += before - internal_energy(P, C, side, y)
+
+
+@compiled
 def renew_charge(P, E, C, side, y):
     """Reject heat at bottom dead centre, down to the curve through the midpoint state (2.3)."""
     if C[side].mode == BURNING:
@@ -295,6 +309,7 @@ def arm_charge(P, C, side, y, p, T, volume):
     c.equivalence_ratio = c.fuel * c.air_fuel_ratio / max(c.air, 1e-300)
     c.p_closing, c.T_closing, c.V_closing = p, T, volume
     c.mode = CLOSED
+    c.spark_advance = c.next_spark_advance
     c.charge_number += 1.0
     c.armed = ARMED if c.fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
@@ -465,8 +480,10 @@ def change_mode(P, E, C, O, side, y, kind):
             y[IGNITION + side] = 0.0
     elif kind == EVENT_IGNITION:
         ignite(P, E, C, side, y, O.motored)
-    elif kind == EVENT_CHARGE_RENEWAL:
+    elif kind == EVENT_CHARGE_RENEWAL and C[side].curve_exponent > 0.0:
         renew_charge(P, E, C, side, y)
+    elif kind == EVENT_CHARGE_RENEWAL:
+        fill_chamber(P, C, side, y)
     elif kind == EVENT_PORT_CLOSING:
         close_ports(P, E, C, side, y)
     else:

@@ -9,7 +9,17 @@ from saleg.laws.alternator import (
     LinearLoad,
     SinusoidalMotor,
 )
-from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Signals, Stroke
+from saleg.laws.arguments import (
+    Charge,
+    Commands,
+    Drive,
+    ForceCommand,
+    Gas,
+    Instant,
+    Motion,
+    Signals,
+    Stroke,
+)
 from saleg.laws.base import (
     Alternator,
     FlowExchange,
@@ -31,16 +41,22 @@ from saleg.laws.choice import any_of, where
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     ActuatorLaw,
+    ConverterLaw,
+    ForceControl,
     FuelControl,
     IntakeControl,
     LoadControl,
     MotorControl,
+    PositionSensorLaw,
     StateLogic,
 )
+from saleg.laws.control.converter import Converter
+from saleg.laws.control.force import PushAlong, tracked_velocity
 from saleg.laws.control.fuel import FuelCut, FuelOnDemand, NoFuel, RatedFuel
 from saleg.laws.control.intake import HeatedIntake, RatedIntake
 from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad, StrokeRegulator
-from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
+from saleg.laws.control.motor import PhaseLockedMotor, ResonanceSearch, SteadyMotor
+from saleg.laws.control.position_sensor import PositionSensor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.earlier_names import accept_earlier_names
 from saleg.laws.friction import (
@@ -106,6 +122,8 @@ __all__ = [
     "ConstantForce",
     "ConstantFriction",
     "ConstantGamma",
+    "Converter",
+    "ConverterLaw",
     "CosineForce",
     "CoulombViscousFriction",
     "Crankcase",
@@ -116,6 +134,8 @@ __all__ = [
     "FixedWall",
     "FlowExchange",
     "FluxProfile",
+    "ForceCommand",
+    "ForceControl",
     "ForceMap",
     "Friction",
     "FrictionShare",
@@ -132,6 +152,7 @@ __all__ = [
     "Ignition",
     "IgnitionAtDeadCentre",
     "IgnitionAtPressure",
+    "Instant",
     "InstantExchange",
     "InstantRelease",
     "IntakeControl",
@@ -153,12 +174,16 @@ __all__ = [
     "NoLeak",
     "NoMisfires",
     "OneSidedSprings",
+    "PhaseLockedMotor",
     "Plenum",
     "PolytropicLoss",
     "PortFlow",
+    "PositionSensor",
+    "PositionSensorLaw",
     "PowerDemand",
     "PreloadedSprings",
     "ProgressiveSprings",
+    "PushAlong",
     "RCMIgnition",
     "RCMIgnitionPascal",
     "RatedFuel",
@@ -184,5 +209,6 @@ __all__ = [
     "Wiebe",
     "Woschni",
     "any_of",
+    "tracked_velocity",
     "where",
 ]

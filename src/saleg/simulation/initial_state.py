@@ -200,6 +200,7 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
         x_left=-0.5 * start.stroke,
         x_right=0.5 * start.stroke,
     )
+    E.t_sample = math.inf
     E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
     E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
