@@ -84,6 +84,7 @@ def write_signals(E, C, signals):
     signals.maximum_stroke = E.maximum_stroke
     signals.rated_equivalence_ratio = E.rated_equivalence_ratio
     signals.rated_intake_temperature = E.rated_intake_temperature
+    signals.position = E.x_dead_centre
 
 
 @inline

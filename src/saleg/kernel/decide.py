@@ -32,6 +32,7 @@ def with_motoring(s, motoring):
         x_right=s.x_right,
         compression_ratio_left=s.compression_ratio_left,
         compression_ratio_right=s.compression_ratio_right,
+        position=s.position,
     )
 
 

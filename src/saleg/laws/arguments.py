@@ -165,6 +165,9 @@ class Signals(NamedTuple):
         Positions of the last two dead centres [m]; negative on the left of the midpoint.
     compression_ratio_left, compression_ratio_right : float
         Geometric compression ratio between them of each chamber alone, by its own clearance [-].
+    position : float
+        Position of the translator now [m]: at a dead centre `x`, at a sample within the stroke
+        where it has come to.
     """
 
     t: float
@@ -184,6 +187,7 @@ class Signals(NamedTuple):
     x_right: float = math.nan
     compression_ratio_left: float = math.nan
     compression_ratio_right: float = math.nan
+    position: float = math.nan
 
 
 class Drive(NamedTuple):
