@@ -54,4 +54,6 @@ LAWS = [
     laws.Crankcase(volume_at_midpoint=5e-4, area=3e-3),
     laws.FixedWall(),
     laws.LumpedWall(),
+    laws.FixedFrame(),
+    laws.MountedFrame(mass=50.0, stiffness=1e4, damping=100.0),
 ]

@@ -32,6 +32,7 @@ from saleg.simulation.net_output import Auxiliaries, NetOutput
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.simulation.scavenging import Scavenging
+from saleg.simulation.shaking import Shaking
 from saleg.status import Status
 from saleg.steady.solver import Effort, SteadyState, steady_state
 from saleg.version import __version__, show_versions
@@ -76,6 +77,7 @@ __all__ = [
     "SalegWarning",
     "Scavenging",
     "SealedCylinder",
+    "Shaking",
     "Status",
     "SteadyState",
     "Translator",

@@ -59,6 +59,9 @@ ARGUMENTS = {
     "volume": [(displacement,) for displacement in (-0.05, 0.0, 0.08)],
     "piston_area": [()],
     "inlet_area": [(rise,) for rise in (-1e3, 0.0, 1e3, 1e5)],
+    "acceleration": [(force, 0.01, -2.0) for force in (-1e4, 0.0, 300.0)],
+    "transmitted": [(force, 0.01, -2.0) for force in (-1e4, 0.0, 300.0)],
+    "loss": [(v,) for v in (-2.0, 0.0, 0.5)],
     "temperature_rate": [(450.0, heat) for heat in (-20.0, 0.0, 800.0)],
     "energy": [(motion,) for motion in MOTIONS],
     "happens": [(number,) for number in (0.0, 1.0, 2.0, 7.0)],
@@ -77,6 +80,8 @@ def arguments(law, method):
         if law.slot == "heat_release":
             return [(u,) for u in (-1e-9, 0.0, 0.3, 0.5, 1.0)]
         return [(x, direction) for x in (-0.1, 0.0, 0.02, 0.1) for direction in (1.0, -1.0)]
+    if (law.slot, method) == ("frame", "energy"):
+        return [(0.01, -2.0), (0.0, 0.0)]
     return ARGUMENTS[method]
 
 
@@ -142,6 +147,11 @@ def test_laws_that_mirror_are_odd(law):
     """What a class says of itself spares the search for steady states to try it out."""
     for motion in MOTIONS:
         seen = Motion(motion.t, -motion.x, -motion.v, -motion.direction, -motion.current)
+        if law.slot == "frame":
+            there, here = law.acceleration(3.0, motion.x, motion.v), (-3.0, seen.x, seen.v)
+            assert law.acceleration(*here) == -there
+            assert law.energy(*here[1:]) == law.energy(motion.x, motion.v)
+            continue
         memory = () if law.slot == "springs" else (1.05,)
         assert law.force(*memory, seen) == -law.force(*memory, motion)
 

@@ -18,7 +18,10 @@ Stretch = tuple[int, int]
 
 #: What is summed from dead centre to dead centre: for all engines, and for chambers that breathe.
 QUADRATURES: Stretch = (layout.N_STATE, layout.N_PLAIN)
-TOTALS: Stretch = (layout.SUPPLIED, layout.N_ALL)
+TOTALS: Stretch = (layout.SUPPLIED, layout.MOUNT_LOSS)
+#: The states of the frame, and what is summed of it.
+FRAME: Stretch = (layout.FRAME_X, layout.SUPPLIED)
+FRAME_TOTALS: Stretch = (layout.MOUNT_LOSS, layout.N_ALL)
 
 
 class Needs(NamedTuple):
@@ -33,18 +36,23 @@ class Needs(NamedTuple):
     chambers : frozenset of str
         States of the chambers that laws ask for, by their names in
         :data:`saleg.kernel.layout.CHAMBER_STATES`.
+    frame : bool
+        Position and velocity of the frame: it moves.
     """
 
     motored_pressure: bool
     current: bool
     chambers: frozenset[str] = frozenset()
+    frame: bool = False
 
     @classmethod
     def of(cls, classes: Sequence[type[Law]], motored_pressure: bool) -> Needs:
         """Needs of some law classes."""
         alternators = [law for law in classes if issubclass(law, Alternator)]
         has_rate = any(law.current_rate is not Alternator.current_rate for law in alternators)
-        return cls(motored_pressure, has_rate, asked_for(classes))
+        names = asked_for(classes)
+        chambers = names & layout.CHAMBER_STATES.keys()
+        return cls(motored_pressure, has_rate, chambers, "frame" in names)
 
     @property
     def states(self) -> list[Stretch]:
@@ -54,7 +62,7 @@ class Needs(NamedTuple):
     @property
     def sums(self) -> list[Stretch]:
         """Entries of the state that are summed from dead centre to dead centre."""
-        return [QUADRATURES, TOTALS] if self.chambers else [QUADRATURES]
+        return [QUADRATURES] + [TOTALS] * bool(self.chambers) + [FRAME_TOTALS] * self.frame
 
     @property
     def kept(self) -> list[Stretch]:
@@ -68,12 +76,13 @@ class Needs(NamedTuple):
             ((layout.MOTORED, layout.CURRENT), self.motored_pressure),
             ((layout.CURRENT, layout.N_STATE), self.current),
             *((place, name in self.chambers) for name, place in layout.CHAMBER_STATES.items()),
+            (FRAME, self.frame),
         ]
 
     @property
     def _length(self) -> int:
         """Length of the state up to its last entry that is wanted."""
-        return layout.N_ALL if self.chambers else layout.N_PLAIN
+        return layout.N_ALL if self.chambers or self.frame else layout.N_PLAIN
 
     @property
     def text(self) -> str:
@@ -84,10 +93,11 @@ class Needs(NamedTuple):
             f"CONTENTS_ARE_WANTED = {'contents' in self.chambers}\n"
             f"WALL_TEMPERATURE_IS_WANTED = {'wall_temperature' in self.chambers}\n"
             f"CRANKCASE_IS_WANTED = {'crankcase' in self.chambers}\n"
+            f"FRAME_IS_WANTED = {self.frame}\n"
             f"N_WANTED = {self._length}\n"
         )
 
 
 def asked_for(classes: Iterable[type[Law]]) -> frozenset[str]:
-    """States of the chambers that some law classes ask for, by name."""
+    """States that some law classes ask for, by name."""
     return frozenset(name for law in classes for name in law.states)

@@ -26,8 +26,16 @@ from saleg.engine.chambers import (
 )
 from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine, SalegWarning
-from saleg.laws import Crankcase, Law, LinearLoad, LinearSprings, PortFlow, ViscousFriction
-from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Friction, Springs
+from saleg.laws import (
+    Crankcase,
+    FixedFrame,
+    Law,
+    LinearLoad,
+    LinearSprings,
+    PortFlow,
+    ViscousFriction,
+)
+from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Frame, Friction, Springs
 from saleg.laws.contract import check_laws
 from saleg.quantities import Problem, fields_of, is_number, problems, unusual
 
@@ -44,7 +52,7 @@ class Engine:
     translator : Translator
     left, right : Cylinder, SealedCylinder, BounceChamber or OpenEnd
         None stands for an open end: an engine with one chamber, returned by its springs.
-    springs, friction, alternator : Law
+    springs, friction, alternator, frame : Law
         The laws in the engine's slots.
     start : Start
         How a run begins.
@@ -67,6 +75,7 @@ class Engine:
     springs: Springs = field(default_factory=LinearSprings)
     friction: Friction = field(default_factory=ViscousFriction)
     alternator: Alternator = field(default_factory=LinearLoad)
+    frame: Frame = field(default_factory=FixedFrame)
     start: Start = field(default_factory=CompressedCharge)
     name: str = "engine"
 
@@ -222,7 +231,7 @@ class Engine:
 
     def _each_part(self, look: Callable[[Any, str], list[Problem]]) -> list[Problem]:
         """What is found in the parts, with their paths; chambers that are alike count once."""
-        names = ["translator", "springs", "friction", "alternator", "start"]
+        names = ["translator", *ENGINE_SLOTS, "start"]
         parts = [(name, getattr(self, name)) for name in names]
         if self.is_mirrored:
             parts.append(("", self.left))

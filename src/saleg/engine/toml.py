@@ -29,7 +29,7 @@ from saleg.engine.start import Start
 from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest, shown
 from saleg.files.entry_points import offered
 from saleg.files.reading import read_text
-from saleg.laws import FixedWall, NoLeak, Plenum
+from saleg.laws import FixedFrame, FixedWall, NoLeak, Plenum
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, FlowExchange
 from saleg.quantities import is_number
 
@@ -38,7 +38,7 @@ SLOTS: dict[str, type] = {**CHAMBER_SLOTS, **ENGINE_SLOTS, "start": Start}
 #: Classes that laws derive from, and no laws themselves.
 BASES = (*SLOTS.values(), FlowExchange)
 #: Laws a file does not name: what stands in their slots if nothing is said.
-UNSAID = (NoLeak, FixedWall, Plenum)
+UNSAID = (NoLeak, FixedWall, Plenum, FixedFrame)
 #: Numbers that came later: a file names them only where they are not the default, so that folders
 #: of sweeps begun before still know their engine.
 LATER = ("back_area", "back_pressure", "burnt_shares")
@@ -120,7 +120,8 @@ def to_toml(engine: Engine) -> str:
     else:
         lines += _table("left", engine.left) + _table("right", engine.right)
     for slot in (*ENGINE_SLOTS, "start"):
-        lines += _table(slot, getattr(engine, slot))
+        part = getattr(engine, slot)
+        lines += [] if type(part) in UNSAID else _table(slot, part)
     return "\n".join(lines) + "\n"
 
 

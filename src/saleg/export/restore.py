@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -23,7 +23,7 @@ from saleg.export.description import (
     checksum,
     checksum_of_texts,
 )
-from saleg.export.units import LATER_FIELDS, LAYOUTS
+from saleg.export.units import GENERATIONS, LATER_FIELDS, LAYOUTS, UNKNOWN_BEFORE
 from saleg.simulation.run import Run
 from saleg.status import Status
 
@@ -62,7 +62,7 @@ def restored(stored: Stored, laws: Sequence[type] = ()) -> Run:
     rows = {name: _rows(stored, name, count) for name, count in facts["rows"].items()}
     if stored.is_exact:
         for name, held in rows.items():
-            if facts["checksums"][name] not in (checksum(held), checksum(_as_before(held))):
+            if facts["checksums"][name] not in map(checksum, _as_ever(held)):
                 raise RunFileError(f"it is damaged: {name} are not what was saved")
     orbit = None
     if facts["orbit"] is not None:
@@ -74,9 +74,16 @@ def restored(stored: Stored, laws: Sequence[type] = ()) -> Run:
     return run
 
 
-def _as_before(rows: np.ndarray) -> np.ndarray:
-    """Records without the fields that earlier versions did not have."""
-    names = [name for name in rows.dtype.names or () if name not in LATER_FIELDS]
+def _as_ever(rows: np.ndarray) -> Iterator[np.ndarray]:
+    """Records as they are, and as earlier versions had them."""
+    yield rows
+    for n in range(len(GENERATIONS)):
+        yield _without(rows, {name for names in GENERATIONS[n:] for name in names})
+
+
+def _without(rows: np.ndarray, left_out: set[str]) -> np.ndarray:
+    """Records without some fields."""
+    names = [name for name in rows.dtype.names or () if name not in left_out]
     kept = np.empty(len(rows), np.dtype([(name, rows.dtype[name]) for name in names]))
     for name in names:
         kept[name] = rows[name]
@@ -146,7 +153,7 @@ def _rows(stored: Stored, table: str, count: int) -> np.ndarray:
         except KeyError:
             if place.field not in LATER_FIELDS:
                 raise
-            values = np.zeros(count)
+            values = np.full(count, np.nan if place.field in UNKNOWN_BEFORE else 0.0)
         if values.shape != (count,):
             raise RunFileError(
                 f"{table}.{name} should have {count} rows but has {values.size}: "

@@ -26,6 +26,8 @@ STROKE_UNITS = {
     "peak_acceleration": "m/s^2",
     "peak_velocity": "m/s",
     "spring_energy": "J",
+    "frame_energy": "J",
+    "mount_loss": "J",
     "motoring": "-",
     "motor_amplitude": "N",
     "motor_frequency": "Hz",
@@ -57,17 +59,23 @@ STROKE_UNITS = {
     "wall_temperature": "K",
 }
 
-#: Fields of the strokes that files of earlier versions do not have: 0 in what they are read as.
-LATER_FIELDS = (
-    "fresh_mass",
-    "closing_mass",
-    "closing_temperature",
-    "supplied_mass",
-    "expelled_mass",
-    "expelled_fresh",
-    "crankcase_work",
-    "wall_temperature",
+#: Fields that came later, generation by generation: files from before do not have them.
+GENERATIONS: tuple[tuple[str, ...], ...] = (
+    (
+        "fresh_mass",
+        "closing_mass",
+        "closing_temperature",
+        "supplied_mass",
+        "expelled_mass",
+        "expelled_fresh",
+        "crankcase_work",
+        "wall_temperature",
+    ),
+    ("frame_energy", "mount_loss", "shaking_force", "frame_x", "frame_v"),
 )
+LATER_FIELDS = tuple(name for names in GENERATIONS for name in names)
+#: Those of them that are not known where a file lacks them; of the others nothing was there: 0.
+UNKNOWN_BEFORE = ("shaking_force",)
 
 #: Words for the whole numbers in a column, by the column's name.
 CODES = {"event": layout.EVENT_NAMES, "side": ("left", "right")}

@@ -56,27 +56,31 @@ WALL = 31
 CRANKCASE_THETA = 33
 CRANKCASE_MASS = 35
 CRANKCASE_BURNT = 37
+# Position and velocity of the frame [m, m/s], where it moves.
+FRAME_X = 39
+FRAME_V = 40
 # What has passed since the dead centre, left and right: mass and fuel in through the intake; mass,
 # fuel and fresh gas out, back into the intake too [kg]; enthalpy out, less that in, and work of
-# the crankcase [J].
-SUPPLIED = 39
-SUPPLIED_FUEL = 41
-EXPELLED = 43
-EXPELLED_FUEL = 45
-EXPELLED_FRESH = 47
-ENTHALPY_OUT = 49
-CRANKCASE_WORK = 51
-N_ALL = 53
+# the crankcase [J]; and heat in the mounts of the frame [J].
+SUPPLIED = 41
+SUPPLIED_FUEL = 43
+EXPELLED = 45
+EXPELLED_FUEL = 47
+EXPELLED_FRESH = 49
+ENTHALPY_OUT = 51
+CRANKCASE_WORK = 53
+MOUNT_LOSS = 55
+N_ALL = 56
 #: Those states by the names laws ask for them, as the first entry and the one after the last.
 CHAMBER_STATES = {
     "contents": (FUEL, WALL),
     "wall_temperature": (WALL, CRANKCASE_THETA),
-    "crankcase": (CRANKCASE_THETA, SUPPLIED),
+    "crankcase": (CRANKCASE_THETA, FRAME_X),
 }
 
 # Length of the vector a state at a dead centre is written as (see kernel/orbit.py).
 VECTOR_PER_SIDE = 19
-N_VECTOR = 8 + 2 * VECTOR_PER_SIDE + 1
+N_VECTOR = 10 + 2 * VECTOR_PER_SIDE + 1
 
 # Quantities whose greatest value in a stroke is kept.
 PEAK_PRESSURE = 0
@@ -183,6 +187,9 @@ ENGINE_RECORD = np.dtype(
             "mass_per_stroke",
             "mass_per_work",
             "back_force",
+            # 1 where position and velocity of the frame act on its motion.
+            "frame_is_held",
+            "frame_is_slowed",
         )
     ]
     # What the stroke just ended showed, and what is commanded (kernel/control.py):
@@ -325,6 +332,8 @@ STROKE_RECORD = np.dtype(
             "peak_acceleration",
             "peak_velocity",
             "spring_energy",
+            "frame_energy",
+            "mount_loss",
             "motoring",
             "motor_amplitude",
             "motor_frequency",
@@ -395,6 +404,9 @@ HISTORY_RECORD = np.dtype(
             "electrical_power",
             "load_weight",
             "current",
+            "shaking_force",
+            "frame_x",
+            "frame_v",
         )
     ]
 )

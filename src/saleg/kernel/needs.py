@@ -11,6 +11,7 @@ CURRENT_IS_WANTED = True
 CONTENTS_ARE_WANTED = True
 WALL_TEMPERATURE_IS_WANTED = True
 CRANKCASE_IS_WANTED = True
+FRAME_IS_WANTED = True
 # Whether the alternator may be a motor: a controller commands the engine.
 MOTORING_IS_POSSIBLE = True
 # Length of the state up to its last entry that is wanted.

@@ -6,6 +6,8 @@ from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     CURRENT,
     ELECTRICAL_ENERGY,
+    FRAME_V,
+    FRAME_X,
     HEAT_LOST,
     HEAT_RELEASED,
     IGNITION,
@@ -14,9 +16,10 @@ from saleg.kernel.layout import (
     V,
     X,
 )
+from saleg.kernel.needs import FRAME_IS_WANTED
 from saleg.kernel.peaks import pressure_rate
 from saleg.kernel.rhs import alternator_action, gas_of
-from saleg.kernel.slots import friction_force, springs_force
+from saleg.kernel.slots import frame_transmitted, friction_force, springs_force
 from saleg.kernel.state import clearance_of
 from saleg.laws.arguments import Motion
 
@@ -52,3 +55,9 @@ def observe(P, E, C, y, dy, motored, row):
     row.electrical_power = dy[N_STATE + ELECTRICAL_ENERGY]
     row.load_weight = E.load_weight
     row.current = y[CURRENT]
+    acceleration = dy[V]
+    if FRAME_IS_WANTED:
+        acceleration += dy[FRAME_V]
+        row.frame_x, row.frame_v = y[FRAME_X], y[FRAME_V]
+    force = -E.mass * acceleration
+    row.shaking_force = frame_transmitted(P, force, row.frame_x, row.frame_v)

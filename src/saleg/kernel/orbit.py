@@ -20,6 +20,8 @@ from saleg.kernel.layout import (
     CRANKCASE_THETA,
     CURRENT,
     END_OF_TIME,
+    FRAME_V,
+    FRAME_X,
     FRESH,
     FUEL,
     IGNITION,
@@ -30,7 +32,6 @@ from saleg.kernel.layout import (
     NO_DEAD_CENTRE,
     NOT_FOUND,
     OPEN,
-    SUPPLIED,
     THETA,
     VECTOR_PER_SIDE,
     WALL,
@@ -67,7 +68,9 @@ Z_STROKE = 4
 Z_FUEL_ENERGY = 5
 Z_SPEED_SQUARED = 6
 Z_AMPERES = 7
-Z_CHAMBERS = 8
+Z_FRAME_X = 8
+Z_FRAME_V = 9
+Z_CHAMBERS = 10
 Z_LN_PRESSURE = 0
 Z_INTEGRAL = 1
 Z_LN_MOTORED = 2
@@ -103,6 +106,8 @@ def write_vector(E, C, y, z):
     z[Z_FUEL_ENERGY] = E.last_fuel_energy / (E.mass * E.speed_scale**2)
     z[Z_SPEED_SQUARED] = E.last_speed_squared / (E.speed_scale * E.length_scale)
     z[Z_AMPERES] = y[CURRENT] / E.current_scale
+    z[Z_FRAME_X] = E.frame_is_held * y[FRAME_X] / E.length_scale
+    z[Z_FRAME_V] = E.frame_is_slowed * y[FRAME_V] / E.speed_scale
     z[Z_LN_MASS_MOVING] = log(E.mass) if E.mass_fixed > 0.0 else 0.0
     for side in range(2):
         c = C[side]
@@ -169,6 +174,10 @@ def read_vector(E, C, y, z):
     E.last_fuel_energy = z[Z_FUEL_ENERGY] * (E.mass * E.speed_scale**2)
     E.last_speed_squared = z[Z_SPEED_SQUARED] * (E.speed_scale * E.length_scale)
     y[CURRENT] = z[Z_AMPERES] * E.current_scale
+    if E.frame_is_held > 0.0:
+        y[FRAME_X] = z[Z_FRAME_X] * E.length_scale
+    if E.frame_is_slowed > 0.0:
+        y[FRAME_V] = z[Z_FRAME_V] * E.speed_scale
     for side in range(2):
         c = C[side]
         first = Z_CHAMBERS + VECTOR_PER_SIDE * side
@@ -202,9 +211,10 @@ def mirror(E, C, y, words):
     C[0].sign, C[1].sign = 1.0, -1.0
     for first in (THETA, IGNITION, MOTORED):
         y[first], y[first + 1] = y[first + 1], y[first]
-    for first in range(FUEL, SUPPLIED, 2):
+    for first in range(FUEL, FRAME_X, 2):
         y[first], y[first + 1] = y[first + 1], y[first]
     y[X], y[V], y[CURRENT] = -y[X], -y[V], -y[CURRENT]
+    y[FRAME_X], y[FRAME_V] = -y[FRAME_X], -y[FRAME_V]
     E.x_dead_centre = -E.x_dead_centre
     E.direction = -E.direction
 

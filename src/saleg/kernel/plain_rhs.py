@@ -22,15 +22,19 @@ from saleg.kernel.layout import (
     DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
+    FRAME_V,
+    FRAME_X,
     FRICTION_WORK,
     FUEL,
     GAS_WORK,
     HEAT_LOST,
     HEAT_RELEASED,
+    MOUNT_LOSS,
     OPEN,
     PORT_WORK,
     SPEED_SQUARED,
 )
+from saleg.kernel.needs import FRAME_IS_WANTED
 from saleg.kernel.plain_breathing import (
     ENERGY,
     burn,
@@ -49,6 +53,8 @@ from saleg.kernel.slots import (
     alternator_current_rate,
     alternator_electrical_power,
     alternator_force,
+    frame_acceleration,
+    frame_loss,
     friction_force,
     gas_properties_gamma,
     gas_properties_internal_energy,
@@ -206,7 +212,13 @@ def translator(P, E, C, t, y, p_left, p_right, dy):
     if has_crankcase(C, 0) or has_crankcase(C, 1):
         push += push_of_crankcase(P, C, 0, y) + push_of_crankcase(P, C, 1, y)
     dy[POSITION] = v
-    dy[VELOCITY] = (push + springs_force(P, motion) - load - friction) / E.mass
+    on_translator = push + springs_force(P, motion) - load - friction
+    dy[VELOCITY] = on_translator / E.mass
+    if FRAME_IS_WANTED and E.frame_moves > 0.0:
+        frame = frame_acceleration(P, -on_translator, y[FRAME_X], y[FRAME_V])
+        dy[FRAME_X], dy[FRAME_V] = y[FRAME_V], frame
+        dy[MOUNT_LOSS] = frame_loss(P, y[FRAME_V])
+        dy[VELOCITY] -= frame
     dy[ALTERNATOR_CURRENT] = alternator_current_rate(P, E.load_weight, motion)
     dy[QUADRATURES + ALTERNATOR_WORK] = load * v
     dy[QUADRATURES + ELECTRICAL_ENERGY] = power

@@ -32,6 +32,8 @@ from saleg.kernel.layout import (
     DISARMED,
     ELECTRICAL_ENERGY,
     ELECTRICAL_SQUARED,
+    FRAME_V,
+    FRAME_X,
     FRICTION_WORK,
     FUEL,
     G0,
@@ -41,6 +43,7 @@ from saleg.kernel.layout import (
     IGNITION,
     LEFT,
     MOTORED,
+    MOUNT_LOSS,
     N_STATE,
     OPEN,
     PORT_WORK,
@@ -55,6 +58,7 @@ from saleg.kernel.needs import (
     CONTENTS_ARE_WANTED,
     CRANKCASE_IS_WANTED,
     CURRENT_IS_WANTED,
+    FRAME_IS_WANTED,
     MOTORED_PRESSURE_IS_WANTED,
     MOTORING_IS_POSSIBLE,
     WALL_TEMPERATURE_IS_WANTED,
@@ -67,6 +71,8 @@ from saleg.kernel.slots import (
     alternator_next_breakpoint,
     converter_force,
     converter_power,
+    frame_acceleration,
+    frame_loss,
     friction_force,
     gas_exchange_next_breakpoint,
     gas_properties_breakpoint,
@@ -334,12 +340,17 @@ def alternator_action(P, E, t, motion):
 
 @inline
 def rates_of_motion(P, E, t, y, dy, force):
-    """Newton's law (Eq. 36) and the quadratures of the translator."""
+    """Newton's law (Eq. 36), seen from the frame, and the quadratures of the translator."""
     motion = Motion(t, y[X], y[V], E.direction, y[CURRENT])
     generator, power = alternator_action(P, E, t, motion)
     friction = friction_force(P, E.friction_held, motion)
-    acceleration = (force + springs_force(P, motion) - generator - friction) * E.per_mass
-    v = motion.v
+    total = force + springs_force(P, motion) - generator - friction
+    v, acceleration = motion.v, total * E.per_mass
+    if FRAME_IS_WANTED:
+        frame = frame_acceleration(P, -total, y[FRAME_X], y[FRAME_V])
+        acceleration -= frame
+        dy[FRAME_X], dy[FRAME_V] = y[FRAME_V], frame
+        dy[MOUNT_LOSS] = frame_loss(P, y[FRAME_V])
     dy[X], dy[V] = v, acceleration
     if CURRENT_IS_WANTED:
         dy[CURRENT] = alternator_current_rate(P, E.load_weight, motion)

@@ -214,6 +214,26 @@ def alternator_next_breakpoint(P: Any, x: float, direction: float) -> float:
     return P.alternator.next_breakpoint(x, direction)
 
 
+def frame_acceleration(P: Any, force: float, x: float, v: float) -> float:
+    """Acceleration of the frame."""
+    return P.frame.acceleration(force, x, v)
+
+
+def frame_transmitted(P: Any, force: float, x: float, v: float) -> float:
+    """Force on what the frame stands on."""
+    return P.frame.transmitted(force, x, v)
+
+
+def frame_energy(P: Any, x: float, v: float) -> float:
+    """Energy of the frame and in its mounts."""
+    return P.frame.energy(x, v)
+
+
+def frame_loss(P: Any, v: float) -> float:
+    """Power that the mounts turn into heat."""
+    return P.frame.loss(v)
+
+
 def call_at(address: Any, numbers: int, memory: int, signals: int, commands: int) -> None:
     """Call a controller by its address; one of Python stands there itself."""
     entry = address if callable(address) else CFUNCTYPE(None, *[c_void_p] * 4)(address)

@@ -11,10 +11,11 @@ from saleg.kernel.layout import (
     CRANKCASE_MASS,
     CRANKCASE_THETA,
     CURRENT,
+    FRAME_V,
+    FRAME_X,
     FUEL,
     IGNITION,
     MOTORED,
-    SUPPLIED,
     THETA,
     WALL,
     V,
@@ -24,6 +25,7 @@ from saleg.kernel.needs import (
     CONTENTS_ARE_WANTED,
     CRANKCASE_IS_WANTED,
     CURRENT_IS_WANTED,
+    FRAME_IS_WANTED,
     MOTORED_PRESSURE_IS_WANTED,
     WALL_TEMPERATURE_IS_WANTED,
 )
@@ -85,7 +87,12 @@ def error_norm(E, C, h, y, y_new, k, tolerance):
         for n in range(CRANKCASE_THETA, CRANKCASE_MASS):
             error = abs(defect(k, n))
             worst, total = max(worst, error), total + error
-        for n in range(CRANKCASE_MASS, SUPPLIED):
+        for n in range(CRANKCASE_MASS, FRAME_X):
             error = abs(defect(k, n)) / max(y[CRANKCASE_MASS + (n - FUEL) % 2], 1e-300)
             worst, total = max(worst, error), total + error
+    if FRAME_IS_WANTED:
+        error = abs(defect(k, FRAME_X)) / E.length_scale
+        worst, total = max(worst, error), total + error
+        error = abs(defect(k, FRAME_V)) / E.speed_scale
+        worst, total = max(worst, error), total + error
     return where(isfinite(total), h * worst / tolerance, inf)

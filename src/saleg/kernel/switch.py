@@ -44,6 +44,8 @@ from saleg.kernel.layout import (
     EXPELLED_FRESH,
     EXPELLED_FUEL,
     FAILING,
+    FRAME_V,
+    FRAME_X,
     FRESH,
     FRICTION_WORK,
     FUEL,
@@ -56,6 +58,7 @@ from saleg.kernel.layout import (
     LATE,
     LEFT,
     MOTORED,
+    MOUNT_LOSS,
     N_STATE,
     OPEN,
     PEAK_ACCELERATION,
@@ -73,10 +76,11 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.needs import CONTENTS_ARE_WANTED, CRANKCASE_IS_WANTED
+from saleg.kernel.needs import CONTENTS_ARE_WANTED, CRANKCASE_IS_WANTED, FRAME_IS_WANTED
 from saleg.kernel.rhs import charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
+    frame_energy,
     friction_at_dead_centre,
     gas_exchange_charge,
     gas_properties_gamma,
@@ -338,6 +342,10 @@ def write_stroke(P, E, C, y, peaks, row):
     row.peak_velocity = peaks[PEAK_VELOCITY]
     row.spring_energy = springs_energy(P, Motion(E.t, y[X], y[V], E.direction))
     row.spring_energy -= E.back_force * y[X]
+    if FRAME_IS_WANTED:
+        v = y[FRAME_V]
+        row.frame_energy = frame_energy(P, y[FRAME_X], v) + 0.5 * E.mass * v * v
+        row.mount_loss = y[MOUNT_LOSS]
     for side in range(2):
         c = C[side]
         row.heat_released[side] = y[N_STATE + HEAT_RELEASED + side]

@@ -23,6 +23,7 @@ from saleg.laws.arguments import (
 from saleg.laws.base import (
     Alternator,
     FlowExchange,
+    Frame,
     Friction,
     GasExchange,
     GasProperties,
@@ -59,6 +60,7 @@ from saleg.laws.control.motor import PhaseLockedMotor, ResonanceSearch, SteadyMo
 from saleg.laws.control.position_sensor import PositionSensor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.earlier_names import accept_earlier_names
+from saleg.laws.frame import FixedFrame, MountedFrame
 from saleg.laws.friction import (
     BlairViscousFriction,
     ConstantFriction,
@@ -131,12 +133,14 @@ __all__ = [
     "DoubleWiebe",
     "Drive",
     "EndStops",
+    "FixedFrame",
     "FixedWall",
     "FlowExchange",
     "FluxProfile",
     "ForceCommand",
     "ForceControl",
     "ForceMap",
+    "Frame",
     "Friction",
     "FrictionShare",
     "FuelControl",
@@ -167,6 +171,7 @@ __all__ = [
     "MixtureGas",
     "Motion",
     "MotorControl",
+    "MountedFrame",
     "NeverMotored",
     "NoFriction",
     "NoFuel",

@@ -382,6 +382,35 @@ class Alternator(Law):
         return math.inf
 
 
+class Frame(Law):
+    """Frame of the engine: all that does not move with the translator.
+
+    Fixed, or for a law that asks for the state "frame" moving: its position and velocity [m, m/s]
+    are integrated then, `force` [N] being that which springs, gas, alternator and friction exert on
+    it.
+    """
+
+    slot = "frame"
+    compiled = ("acceleration", "transmitted", "energy", "loss")
+    optional = compiled
+
+    def acceleration(self, force: float, x: float, v: float) -> float:
+        """Acceleration of the frame [m/s^2]."""
+        return 0.0
+
+    def transmitted(self, force: float, x: float, v: float) -> float:
+        """Force on what the frame stands on [N]."""
+        return force
+
+    def energy(self, x: float, v: float) -> float:
+        """Kinetic energy of the frame, and energy that its mounts store [J]."""
+        return 0.0
+
+    def loss(self, v: float) -> float:
+        """Power that its mounts turn into heat [W]."""
+        return 0.0
+
+
 #: Slots of one chamber and slots of the whole engine, by name.
 CHAMBER_SLOTS: dict[str, type[Law]] = {
     law.slot: law
@@ -397,4 +426,6 @@ CHAMBER_SLOTS: dict[str, type[Law]] = {
         Wall,
     )
 }
-ENGINE_SLOTS: dict[str, type[Law]] = {law.slot: law for law in (Springs, Friction, Alternator)}
+ENGINE_SLOTS: dict[str, type[Law]] = {
+    law.slot: law for law in (Springs, Friction, Alternator, Frame)
+}

@@ -11,17 +11,19 @@ from typing import Any
 
 from saleg.errors import LawError
 from saleg.laws.base import GasProperties, Law
+from saleg.laws.frame import FixedFrame
 from saleg.laws.leaks import NoLeak
 from saleg.laws.supply import Plenum
 from saleg.laws.walls import FixedWall
 
 #: States a law may ask for.
-STATES = ("contents", "wall_temperature", "crankcase")
+STATES = ("contents", "wall_temperature", "crankcase", "frame")
 #: Laws that ask for none, the method by which others change a state, and that state.
 NEEDED: tuple[tuple[type[Law], str, str], ...] = (
     (NoLeak, "area", "contents"),
     (FixedWall, "temperature_rate", "wall_temperature"),
     (Plenum, "volume", "crankcase"),
+    (FixedFrame, "acceleration", "frame"),
 )
 
 
@@ -76,7 +78,7 @@ def _check_states(law: type[Law]) -> None:
         own = getattr(law, method, None)
         if law.slot == idle.slot and own is not getattr(idle, method) and state not in law.states:
             raise LawError(
-                f"{law.__name__}.{method} acts on a state of the chamber, which the law has to ask "
+                f"{law.__name__}.{method} acts on a state, which the law has to ask "
                 f'for: states: ClassVar = ("{state}",)'
             )
 

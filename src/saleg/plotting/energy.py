@@ -53,6 +53,7 @@ def energy_flows(balance: EnergyBalance) -> dict[str, float]:
         "electrical output": balance.electrical,
         "alternator loss": balance.alternator_loss,
         "friction": balance.friction,
+        "mounts": balance.mounts,
         "exhaust": balance.exhaust,
         "heat transfer": balance.heat_transfer,
         "unburnt fuel": balance.unburnt,

@@ -7,7 +7,6 @@ chamber breathes), with no other aim than to be plain. See :func:`simulate`.
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -16,8 +15,9 @@ from saleg.engine import Engine, check_engine, warn_of_unusual
 from saleg.errors import shown
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
-from saleg.quantities import as_float
+from saleg.reference.one_frame import Together, simulate_on_one_frame
 from saleg.reference.running_engine import RunningEngine
+from saleg.reference.runs import checked_settings, run_of
 from saleg.reference.segments import (
     Solver,
     SolverFailure,
@@ -28,12 +28,10 @@ from saleg.reference.segments import (
     plain_rates,
     scales,
 )
-from saleg.simulation.initial_state import State
-from saleg.simulation.outcome import outcome_of
 from saleg.simulation.run import Run
 from saleg.simulation.settings import SettingsError, check_flag
 
-__all__ = ["simulate"]
+__all__ = ["Together", "simulate", "simulate_on_one_frame"]
 
 #: Segments without progress in time after which a run is given up.
 MAX_AT_ONE_INSTANT = 20
@@ -92,7 +90,10 @@ def simulate(
     """
     check_engine(engine)
     warn_of_unusual(engine)
-    rtol, stall_stroke, duration = _checked(solver, rtol, stall_stroke, duration)
+    _check_solver(solver)
+    rtol, stall_stroke, duration = checked_settings(
+        rtol=rtol, stall_stroke=stall_stroke, duration=duration
+    )
     check_flag("jitted", jitted)
     check_flag("motored_pressure", motored_pressure)
     running = RunningEngine.started(engine, motored_pressure or engine.needs_motored_pressure)
@@ -109,24 +110,12 @@ def simulate(
         code = _run_on(running, duration, method, tally, stall_stroke)
     except SolverFailure as failure:
         code, trouble = layout.STEP_FAILURE, f" ({failure})"
-    strokes = _rows(running.strokes, layout.STROKE_RECORD)
-    status, message = outcome_of(engine, code, _final_state(running), strokes)
-    return Run(
-        engine=engine,
-        status=status,
-        message=message + trouble,
-        duration=running.t,
-        strokes=strokes,
-        event_rows=np.array(running.events, layout.EVENT_RECORD),
-        history_rows=None,
-        evaluations=tally.evaluations,
-        steps=tally.steps,
-        settings={"method": getattr(solver, "__name__", solver), "rtol": rtol, "jitted": jitted},
-    )
+    settings = {"method": getattr(solver, "__name__", solver), "rtol": rtol, "jitted": jitted}
+    return run_of(running, code, trouble, tally, settings)
 
 
-def _checked(solver: Any, *numbers: Any) -> list[float]:
-    """Tolerance, stall stroke and duration as floats; refused, as the solver, if they are none."""
+def _check_solver(solver: Any) -> None:
+    """Refuse what is no solver of scipy's."""
     from scipy.integrate import OdeSolver
 
     known = ("DOP853", "RK45", "RK23", "Radau", "LSODA", "BDF")
@@ -135,16 +124,6 @@ def _checked(solver: Any, *numbers: Any) -> list[float]:
         raise SettingsError(
             f"solver = {shown(solver)}: must be one of {', '.join(known)}, or a class"
         )
-    found = []
-    limits = (("rtol", 1e-14, 1.0), ("stall_stroke", 0.0, 1.0), ("duration", 0.0, math.inf))
-    for value, (name, low, high) in zip(numbers, limits, strict=True):
-        number = as_float(value)
-        if number is None or not low <= number < high:
-            raise SettingsError(
-                f"{name} = {shown(value)}: must be a number >= {low:g} and < {high:g}"
-            )
-        found.append(number)
-    return found
 
 
 def _run_on(
@@ -175,20 +154,3 @@ def _run_on(
             if held or (running.strokes and running.machine.stroke < shortest):
                 return layout.STALLED
     return layout.END_OF_TIME
-
-
-def _rows(rows: list[np.ndarray], dtype: np.dtype) -> np.ndarray:
-    return np.concatenate(rows) if rows else np.zeros(0, dtype)
-
-
-def _final_state(running: RunningEngine) -> State:
-    """State at the end of a run, in the records its outcome is read from."""
-    E = np.zeros(1, layout.ENGINE_RECORD)
-    E["t"], E["stroke"] = running.t, running.machine.stroke
-    E["maximum_stroke"] = running.engine.maximum_stroke
-    E["direction"], E["t_dead_centre"] = running.machine.direction, running.t_dead_centre
-    E["length_scale"] = 0.5 * running.engine.maximum_stroke
-    E["speed_scale"] = natural_speed(running)
-    y = np.zeros(layout.N_ALL)
-    y[: len(running.y)] = running.y
-    return State(E, np.zeros(2, layout.CHAMBER_RECORD), y, running.peaks)

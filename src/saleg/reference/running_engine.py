@@ -107,7 +107,8 @@ class RunningEngine:
         """Engine at time zero, as its start law has it."""
         start = engine.start.initial(engine)
         contents = (start.left, start.right)
-        has_states = any(chamber.states for chamber in engine.chambers)
+        frame_moves = "frame" in engine.frame.states
+        has_states = frame_moves or any(chamber.states for chamber in engine.chambers)
         y = np.zeros(layout.N_ALL if has_states else QUADRATURES + layout.N_QUADRATURES)
         y[POSITION], y[VELOCITY] = start.x, start.v
         y[PRESSURE : PRESSURE + 2] = [held.pressure for held in contents]
@@ -116,6 +117,7 @@ class RunningEngine:
         mass = float(engine.translator.mass)
         speed = start.mean_piston_speed
         machine = EngineState(mass, engine.back_force, float(motored), start.stroke, speed)
+        machine.frame_moves = float(frame_moves)
         totals = [StrokeTotals(), StrokeTotals()]
         x = start.x if start.at_dead_centre else math.nan
         self = cls(engine, 0.0, y, machine, chambers, totals, x)
@@ -460,6 +462,8 @@ class RunningEngine:
         row["peak_acceleration"] = self.peaks[layout.PEAK_ACCELERATION]
         behind = self.machine.back_force * x
         row["spring_energy"] = self.engine.springs.energy(motion) - behind
+        if self.machine.frame_moves:
+            row["frame_energy"], row["mount_loss"] = self._energy_of_frame()
         row["equivalence_ratio"], row["intake_temperature"] = ratings(self.engine)
         for side in (0, 1):
             for name, value in vars(self.totals[side]).items():
@@ -472,6 +476,12 @@ class RunningEngine:
             if c.breathes:
                 write_passed(c, self.y, side, row[0])
         return row
+
+    def _energy_of_frame(self) -> tuple[float, float]:
+        """Energy of the frame, its mounts and what it carries, and heat in the mounts [J]."""
+        x, v = (float(self.y[n]) for n in (layout.FRAME_X, layout.FRAME_V))
+        carried = 0.5 * self.machine.mass * v**2
+        return self.engine.frame.energy(x, v) + carried, float(self.y[layout.MOUNT_LOSS])
 
     def _fuel_energy(self, side: int) -> float:
         """Lower heating value of the unburnt fuel in a chamber [J]."""

@@ -144,6 +144,8 @@ def scales(running: RunningEngine, speed: float) -> np.ndarray:
     if len(running.y) > layout.FUEL:
         for side, c in enumerate(running.chambers):
             _scale_states(scale, side, c, energy)
+        scale[layout.FRAME_X], scale[layout.FRAME_V] = length, speed
+        scale[layout.MOUNT_LOSS] = energy
     return scale
 
 
@@ -224,13 +226,13 @@ def _unlit(side: int) -> Callable[[np.ndarray], float]:
 
 def advance(running: RunningEngine, end: float, solver: Solver, tally: Tally) -> Event | None:
     """Integrate to the next event, or to `end` if none comes; returns the event."""
-    end = min([end, *_breaks_in_combustion(running), _before_first_movement(running, end, solver)])
+    end = min([end, *breaks_in_combustion(running), _before_first_movement(running, end, solver)])
     if end - running.t <= 1e-14 * max(end, solver.natural_time):
         running.t = end
         return None
     events = possible_events(running)
     derivative = solver.rates(running)
-    solution = _solve(derivative, running.t, end, running.y, solver, tally, events)
+    solution = solve(derivative, running.t, end, running.y, solver, tally, events)
     watch(running, solution, derivative)
     crossed = [event for event, times in zip(events, solution.t_events, strict=True) if len(times)]
     if not crossed:
@@ -239,12 +241,12 @@ def advance(running: RunningEngine, end: float, solver: Solver, tally: Tally) ->
     # The interpolant gives the time of the event, a last step to it the state there: no rate need
     # be smooth beyond an event, nor the interpolant as good as the method.
     start, y, running.t = solution.t[-2], solution.y[:, -2], float(solution.t[-1])
-    running.y = _solve(derivative, start, running.t, y, solver, tally).y[:, -1].copy()
+    running.y = solve(derivative, start, running.t, y, solver, tally).y[:, -1].copy()
     land(running, crossed[0])
     return crossed[0]
 
 
-def _solve(
+def solve(
     derivative: Rates,
     start: float,
     end: float,
@@ -274,7 +276,7 @@ def _solve(
     return solution
 
 
-def _breaks_in_combustion(running: RunningEngine) -> list[float]:
+def breaks_in_combustion(running: RunningEngine) -> list[float]:
     """Times of the next breakpoints of burn rates, or of the ends of combustion [s]."""
     times = []
     for side, c in enumerate(running.chambers):
@@ -304,14 +306,18 @@ def land(running: RunningEngine, event: Event) -> None:
         running.y[POSITION] -= c.sign * event.value(running.y)
 
 
-def watch(running: RunningEngine, solution: Any, derivative: Rates) -> None:
-    """Find the greatest values in a segment: sampled at the steps, located between them."""
-    values = np.array(
-        [
-            watched(running, y, derivative(t, y))
-            for t, y in zip(solution.t, solution.y.T, strict=True)
-        ]
-    )
+def watch(
+    running: RunningEngine, solution: Any, derivative: Rates, place: slice = slice(None)
+) -> None:
+    """Find the greatest values in a segment: sampled at the steps, located between them.
+
+    The engine stands at `place` in the vector that is integrated.
+    """
+
+    def seen(t: float, y: np.ndarray) -> np.ndarray:
+        return watched(running, y[place], derivative(t, y)[place])
+
+    values = np.array([seen(t, y) for t, y in zip(solution.t, solution.y.T, strict=True)])
     last = len(values) - 1
     for peak, best in enumerate(np.argmax(values, axis=0)):
         sampled, ends = values[best, peak], (max(best - 1, 0), min(best + 1, last))
@@ -321,8 +327,7 @@ def watch(running: RunningEngine, solution: Any, derivative: Rates) -> None:
             continue
 
         def falling(t: float, peak: int = peak) -> float:
-            y = solution.sol(t)
-            return -float(watched(running, y, derivative(t, y))[peak])
+            return -float(seen(t, solution.sol(t))[peak])
 
         located = _greatest(falling, solution.t[ends[0]], solution.t[ends[1]])
         running.peaks[peak] = max(running.peaks[peak], sampled, located)

@@ -35,6 +35,8 @@ class EngineState:
         Of the latest stroke [m, m/s].
     load_weight, friction_held : float
         What the laws of alternator and friction hold.
+    frame_moves : float
+        1 if position and velocity of the frame are states, else 0.
     direction : float
         +1 on the way right, -1 on the way left, 0 before the first movement.
     """
@@ -46,6 +48,7 @@ class EngineState:
     mean_piston_speed: float
     load_weight: float = 0.0
     friction_held: float = 0.0
+    frame_moves: float = 0.0
     direction: float = 0.0
 
 

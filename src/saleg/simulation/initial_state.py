@@ -205,6 +205,10 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
     E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
     E.regulated_weight = E.load_weight
+    held = engine.frame.acceleration(0.0, 1.0, 0.0) != 0.0
+    E.frame_is_held = 1.0 if held else 0.0
+    slowed = engine.frame.acceleration(0.0, 0.0, 1.0) != 0.0
+    E.frame_is_slowed = 1.0 if held or slowed else 0.0
     _rate(E, C, engine)
 
 

@@ -348,14 +348,18 @@ class EnergyBalance:
         Work of the intake pressure on the pistons while the ports are open [J].
     friction, alternator : float
         Mechanical work taken by friction and alternator [J].
+    mounts : float
+        Heat in the mounts of a frame that moves [J].
     electrical : float
         Electrical energy delivered [J].
     stored : float
-        Increase of the energy in springs and gas [J] (there is no kinetic energy at dead centres).
+        Increase of the energy in springs and gas [J], and of a frame that moves, of all that is
+        carried along with it and of its mounts (the translator rests on it at dead centres).
     stored_fuel : float
         Increase of the fuel in the chambers, by its lower heating value [J].
     residual : float
-        ``released + port_work - heat_transfer - exhaust - friction - alternator - stored`` [J].
+        ``released + port_work - heat_transfer - exhaust - friction - alternator - mounts -
+        stored`` [J].
     """
 
     fuel: float
@@ -366,6 +370,7 @@ class EnergyBalance:
     port_work: float
     friction: float
     alternator: float
+    mounts: float
     electrical: float
     stored: float
     stored_fuel: float
@@ -399,7 +404,8 @@ class EnergyBalance:
         """
         last, all_of = strokes[..., -1], summed(strokes)
         held_before, held_after = (
-            row["spring_energy"] + both(row["internal_energy"]) for row in (before, last)
+            row["spring_energy"] + row["frame_energy"] + both(row["internal_energy"])
+            for row in (before, last)
         )
         terms = {
             "released": both(all_of["heat_released"]),
@@ -408,12 +414,12 @@ class EnergyBalance:
             "port_work": both(all_of["port_work"]),
             "friction": all_of["friction_work"],
             "alternator": all_of["alternator_work"],
+            "mounts": all_of["mount_loss"],
             "stored": held_after - held_before,
         }
         gains = terms["released"] + terms["port_work"]
-        uses = sum(
-            terms[name] for name in ("heat_transfer", "exhaust", "friction", "alternator", "stored")
-        )
+        used = ("heat_transfer", "exhaust", "friction", "alternator", "mounts", "stored")
+        uses = sum(terms[name] for name in used)
         terms["fuel"] = both(all_of["fresh_fuel_energy"])
         terms["unburnt"] = both(all_of["exhaust_fuel_energy"])
         terms["electrical"] = all_of["electrical_energy"]

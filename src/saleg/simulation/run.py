@@ -15,6 +15,7 @@ from saleg.kernel.layout import EVENT_NAMES
 from saleg.simulation.net_output import Auxiliaries, NetOutput, net_output_of
 from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.scavenging import Scavenging, scavenging_of
+from saleg.simulation.shaking import Shaking, shaking_of
 from saleg.simulation.tables import cycle_table, dead_centre_table, event_table, history_table
 from saleg.status import Status
 
@@ -179,6 +180,12 @@ class Run:
         NaN for a chamber whose ports let no gas flow, and without a full cycle.
         """
         return scavenging_of(self.engine, self.last_cycle_strokes)
+
+    @cached_property
+    def shaking(self) -> Shaking:
+        """Force on what the engine stands on, and motion of its frame, in the last full cycle."""
+        history = self.orbit.history_rows if self.orbit is not None else None
+        return shaking_of(self.last_cycle_strokes, history)
 
     def net_output(self, auxiliaries: Auxiliaries | None = None) -> NetOutput:
         """Power of the last full cycle once charger, electronics and consumers are paid for.

@@ -92,6 +92,9 @@ HISTORY_UNITS = {
     "electrical_power": "W",
     "load_weight": "-",
     "current": "A",
+    "shaking_force": "N",
+    "frame_x": "m",
+    "frame_v": "m/s",
 }
 
 

@@ -29,6 +29,8 @@ from saleg.kernel.orbit import (
     Z_CHAMBERS,
     Z_CRANKCASE_BURNT,
     Z_CRANKCASE_MASS,
+    Z_FRAME_V,
+    Z_FRAME_X,
     Z_FRESH,
     Z_INTEGRAL,
     Z_LN_CLOSING_PRESSURE,
@@ -377,6 +379,8 @@ def _moved_entries(engine: Engine, starts: States) -> np.ndarray:
     """Whether each entry of the vector can make a difference; those of an open chamber do not."""
     moved = np.full((len(starts.y), layout.N_VECTOR), True)
     moved[:, sorted(constant_entries(engine))] = False
+    moved[:, Z_FRAME_X] &= starts.engine["frame_is_held"] > 0.0
+    moved[:, Z_FRAME_V] &= starts.engine["frame_is_slowed"] > 0.0
     moved[:, Z_LN_MASS_MOVING] &= starts.engine["mass_fixed"] > 0.0
     for side, mode in enumerate(starts.chambers["mode"].T):
         first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
@@ -410,6 +414,8 @@ def constant_entries(engine: Engine) -> set[int]:
     kept = set()
     if type(engine.alternator).current_rate is Alternator.current_rate:
         kept.add(Z_AMPERES)
+    if "frame" not in engine.frame.states:
+        kept |= {Z_FRAME_X, Z_FRAME_V}
     for side, chamber in enumerate(engine.chambers):
         first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
         if isinstance(chamber, OpenEnd):
@@ -507,7 +513,7 @@ def is_symmetric(engine: Engine) -> bool:
         try:
             there = _forces(engine, Motion(0.0, x, v, direction, current))
             mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
-            signs = (-1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0)
+            signs = (-1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
             for sign, a, b in zip(signs, there, mirrored, strict=True):
                 if abs(sign * a - b) > 1e-12 * abs(a):
                     return False
@@ -519,7 +525,8 @@ def is_symmetric(engine: Engine) -> bool:
 def has_laws_that_mirror(engine: Engine) -> bool:
     """Whether all laws of motion are the same in the mirror whatever their numbers."""
     # A class says so for itself, not for those derived from it.
-    return all(vars(type(law)).get("mirrors") for law in _laws_of_motion(engine))
+    laws = *_laws_of_motion(engine), engine.frame
+    return all(vars(type(law)).get("mirrors") for law in laws)
 
 
 def _laws_of_motion(engine: Engine) -> tuple[Law, ...]:
@@ -541,6 +548,9 @@ def _forces(engine: Engine, motion: Motion) -> list[float]:
         engine.friction.force(1.0, motion),
         engine.alternator.force(1.0, motion),
         engine.alternator.current_rate(1.0, motion),
+        engine.frame.acceleration(motion.x, motion.x, motion.v),
+        engine.frame.energy(motion.x, motion.v),
+        engine.frame.loss(motion.v),
         engine.springs.energy(motion),
         engine.alternator.electrical_power(1.0, motion),
         engine.alternator.at_dead_centre(1.0, stroke),

@@ -84,7 +84,7 @@ def find_settled(
     strokes : int
         Strokes integrated in all, verifying cycles included.
     """
-    strokes, slow = 0, any(map(may_be_slow, return_map.engine.chambers))
+    strokes, slow = 0, has_slow_states(return_map.engine)
     begin, smallest = return_map.state.copy(), SLOW
     shortest, vain = np.inf, 0
     for _ in range(MAX_FOLLOWED if follow else MAX_JUMPS):
@@ -118,6 +118,11 @@ def find_settled(
         if not give_back_entropy(return_map, begin, NEAR * tolerance):
             return found, strokes
     return found._replace(code=layout.NOT_FOUND), strokes
+
+
+def has_slow_states(engine: Engine) -> bool:
+    """Whether a state may move by less than the tolerance in a cycle, far from rest."""
+    return "frame" in engine.frame.states or any(map(may_be_slow, engine.chambers))
 
 
 def may_be_slow(chamber: Chamber) -> bool:

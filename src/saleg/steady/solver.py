@@ -37,6 +37,7 @@ from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
 from saleg.simulation.run import Run, read_only
 from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
+from saleg.simulation.shaking import Shaking, shaking_of
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import (
@@ -173,6 +174,12 @@ class SteadyState:
     def scavenging(self) -> tuple[Scavenging, Scavenging]:
         """Gas exchange of the left and the right cylinder, as of a run."""
         return scavenging_of(self.engine, self.strokes if len(self.strokes) else None)
+
+    @cached_property
+    def shaking(self) -> Shaking:
+        """Force on what the engine stands on, and motion of its frame, as of a run."""
+        history = self.orbit.history_rows if self.orbit is not None else None
+        return shaking_of(self.strokes if len(self.strokes) else None, history)
 
     def net_output(self, auxiliaries: Auxiliaries | None = None) -> NetOutput:
         """Power once charger, electronics and consumers are paid for, as of a run.
