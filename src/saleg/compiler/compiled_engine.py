@@ -163,8 +163,7 @@ def _check_methods(law: type[Law], state: tuple[object, ...]) -> None:
 
 
 def _laws_in_order(engine: Engine, controller: Controller | None) -> list[Law]:
-    """Laws of an engine in the order of their record: left, right, engine, what it is commanded by.
-    """
+    """Laws of an engine in the order of their record: left, right, engine, actuators, converter."""
     left, right = (IDLE_LAWS | chamber.laws for chamber in engine.chambers)
     laws = [side[slot] for side in (left, right) for slot in CHAMBER_SLOTS]
     laws += [getattr(engine, slot) for slot in ENGINE_SLOTS]

@@ -18,7 +18,7 @@ from saleg.laws import Law
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 from saleg.laws.control.base import ActuatorLaw, ConverterLaw
 
-#: Slots beside those of the chambers, in the order of the record: actuators and converter come last.
+#: Slots beside those of the chambers, in the order of the record; actuators and converter are last.
 OTHER_SLOTS: dict[str, type[Law]] = {
     **ENGINE_SLOTS,
     ActuatorLaw.slot: ActuatorLaw,

@@ -19,6 +19,8 @@ from saleg.control.following import (
 )
 from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
 from saleg.control.moments import (
+    BusEnergy,
+    bus_energy,
     first_misfire,
     fuel_cuts,
     late_ignitions,
@@ -37,10 +39,12 @@ from saleg.control.running import (
 from saleg.control.sensors import Sensors
 
 __all__ = [
+    "BusEnergy",
     "Demand",
     "OperatingMap",
     "Plant",
     "Sensors",
+    "bus_energy",
     "demand_by_fuel",
     "demand_by_intake",
     "demand_by_load",

@@ -30,8 +30,7 @@ from saleg.laws.control.load import StrokeRegulator
 from saleg.laws.control.motor import ResonanceSearch
 from saleg.laws.control.position_sensor import PositionSensor
 from saleg.laws.control.state_logic import CompressionThreshold
-from saleg.quantities import Problem, problems
-
+from saleg.quantities import Problem, as_float, problems
 
 #: All slots of a controller.
 SLOTS: dict[str, type[Law]] = {
@@ -113,6 +112,10 @@ class Controller:
                 found += problems(part, slot)
             elif not (slot == ForceControl.slot and part is None):
                 found.append(Problem(slot, part, "-", f"must be a {kind.__name__}"))
+        if self.force_control is not None:
+            interval = as_float(getattr(self.position_sensor, "sample_time", None))
+            if interval is None or not 0.0 < interval < math.inf:
+                found.append(Problem("position_sensor.sample_time", interval, "s", "must be > 0"))
         return found
 
     def validate(self) -> None:
@@ -135,7 +138,9 @@ class Controller:
         LawError
             Naming law and method.
         """
-        check_laws([*self.laws.values(), *self.sampled_laws.values(), self.actuators, self.converter])
+        check_laws(
+            [*self.laws.values(), *self.sampled_laws.values(), self.actuators, self.converter]
+        )
 
 
 def check_controller(controller: Any) -> None:

@@ -320,6 +320,15 @@ def motor_angle(E, t):
 
 
 @inline
+def alternator_action(P, E, t, motion):
+    """Force of the alternator against positive velocity [N] and the power it delivers [W]."""
+    if MOTORING_IS_POSSIBLE and E.is_driven > 0.0:
+        return driven_action(P, E, t, motion.v)
+    force = alternator_force(P, E.load_weight, motion)
+    return force, alternator_electrical_power(P, E.load_weight, motion)
+
+
+@inline
 def driven_action(P, E, t, v):
     """The same of an alternator whose force is commanded, or that is a motor."""
     if E.sets_force > 0.0:
@@ -327,15 +336,6 @@ def driven_action(P, E, t, v):
         return -force, converter_power(P, force, v)
     force = -E.motor_amplitude * sin(motor_angle(E, t))
     return force, actuators_motor_power(P, force * v)
-
-
-@inline
-def alternator_action(P, E, t, motion):
-    """Force of the alternator against positive velocity [N] and the power it delivers [W]."""
-    if MOTORING_IS_POSSIBLE and E.is_driven > 0.0:
-        return driven_action(P, E, t, motion.v)
-    force = alternator_force(P, E.load_weight, motion)
-    return force, alternator_electrical_power(P, E.load_weight, motion)
 
 
 @inline

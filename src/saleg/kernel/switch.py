@@ -250,7 +250,7 @@ def close_ports(P, E, C, side, y):
 
 @compiled
 def fill_chamber(P, C, side, y):
-    """Let gas of its own temperature into a bounce chamber, or out, as its pressure is commanded."""
+    """Bring a bounce chamber to the pressure commanded, by gas of its own temperature."""
     c = C[side]
     before = internal_energy(P, C, side, y)
     ratio = c.wanted_pressure / pressure_at_midpoint(c)

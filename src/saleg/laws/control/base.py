@@ -139,6 +139,4 @@ CONTROL_SLOTS: dict[str, type[Law]] = {
     law.slot: law for law in (StateLogic, MotorControl, LoadControl, FuelControl, IntakeControl)
 }
 #: Slots of a controller that act at samples, in the order they are asked.
-SAMPLED_SLOTS: dict[str, type[Law]] = {
-    law.slot: law for law in (PositionSensorLaw, ForceControl)
-}
+SAMPLED_SLOTS: dict[str, type[Law]] = {law.slot: law for law in (PositionSensorLaw, ForceControl)}

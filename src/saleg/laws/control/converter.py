@@ -14,8 +14,8 @@ from saleg.quantities import quantity
 class Converter(ConverterLaw):
     """A converter with limits of current, voltage and power, and with losses.
 
-    The current ``i = F / k_F`` meets the voltage ``k_F v + R i`` at the terminals; the inductance of
-    the winding is left out. The force wanted is cut down to what all limits allow; where the
+    The current ``i = F / k_F`` takes the voltage ``k_F v + R i`` at the terminals; the winding's
+    inductance is left out. The force wanted is cut down to what all limits allow; where the
     voltage induced alone exceeds that of the bus, there is none.
 
     Parameters

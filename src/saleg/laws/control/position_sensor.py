@@ -54,7 +54,7 @@ class PositionSensor(PositionSensorLaw):
 
 
 def normal_number(memory: Any, seed: float) -> float:
-    """Next number of a standard normal distribution, by Box and Muller; memory[0] is where it is."""
+    """Next number of a standard normal distribution (Box and Muller); memory[0] holds the place."""
     if memory[0] == 0.0:
         memory[0] = 1.0 + seed
         for _ in range(4):  # seeds side by side begin far apart
