@@ -55,5 +55,7 @@ LAWS = [
     laws.FixedWall(),
     laws.LumpedWall(),
     laws.FixedFrame(),
+    laws.NoScatter(),
+    laws.CyclicVariability(seed=7, fuel=0.05, delay=0.02, duration=0.1),
     laws.MountedFrame(mass=50.0, stiffness=1e4, damping=100.0),
 ]

@@ -227,3 +227,32 @@ def test_walls_follow_where_one_end_is_open(base):
     ).replace(wall=laws.LumpedWall())
     run = saleg.simulate(engine, 0.1, rtol=1e-9)
     assert_agree(run, saleg.reference.simulate(engine, 0.1, jitted=True))
+
+
+def test_reports_tell_the_gas_exchange_and_plain_engines_have_none(base, breathing, tmp_path):
+    steady = saleg.steady_state(breathing)
+    left, _ = steady.scavenging
+    assert left.is_known
+    assert f"{left.delivery_ratio:.3f}" in str(steady)
+    for text in (str(steady), steady._repr_html_()):
+        assert "trapping efficiency" in text
+    assert "trapping efficiency" not in str(saleg.steady_state(base))
+    page = tmp_path / "report.html"
+    saleg.report(steady, page)
+    assert "Gas exchange" in page.read_text(encoding="utf-8")
+
+
+def test_histories_have_masses_and_walls(crankcase):
+    run = saleg.simulate(crankcase, 0.1, history=1, rtol=1e-10)
+    seen, gas = run.history, crankcase.left.gas_properties
+    mass = seen["p_left"] * seen["V_left"] / (gas.gas_constant * seen["T_left"])
+    np.testing.assert_allclose(seen["mass_left"], mass, rtol=1e-9)
+    assert (seen["burnt_left"] <= seen["mass_left"]).all()
+    law = crankcase.left.wall
+    warming = (
+        seen["heat_loss_left"]
+        - law.conductance * (seen["wall_temperature_left"] - law.coolant_temperature)
+    ) / law.heat_capacity
+    total = np.trapezoid(warming, seen["t"])
+    change = seen["wall_temperature_left"].iloc[-1] - seen["wall_temperature_left"].iloc[0]
+    assert total == pytest.approx(change, rel=1e-3)

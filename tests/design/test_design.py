@@ -1,5 +1,6 @@
 """Component design: Eq. 60-67, the closed loop, scores and drawings."""
 
+import dataclasses
 import math
 import re
 from dataclasses import dataclass
@@ -248,10 +249,48 @@ def test_a_single_piston_engine_is_designed(base):
 
 def test_laws_that_the_eight_parameters_do_not_fit_are_named(base):
     flows = base.replace(gas_exchange=laws.PortFlow())
-    with pytest.raises(saleg.design.InvalidDesign, match="share of exhaust gas retained, egr"):
+    with pytest.raises(saleg.design.InvalidDesign, match=r"egr = 0\.12: must be 0: gas flows"):
         saleg.design.evaluate(Design(laws=flows))
-    with pytest.raises(saleg.design.InvalidDesign, match="mirrored engine, or have a gas spring"):
+    with pytest.raises(saleg.design.InvalidDesign, match="mirrored, or have a gas spring"):
         saleg.design.evaluate(Design(laws=base.replace(**{"left.bore": 0.06})))
+    open_end = dataclasses.replace(base, right=saleg.OpenEnd())
+    with pytest.raises(saleg.design.InvalidDesign, match="springs with a right_stiffness"):
+        saleg.design.evaluate(Design(laws=open_end))
+
+
+def alone_agrees(found):
+    """Whether the engine of a design by itself has the same steady state."""
+    assert found.status is Status.STEADY, found.message
+    assert found.moving_mass == pytest.approx(found.masses.total, rel=1e-6)
+    alone = saleg.steady_state(found.engine.replace(moving_mass=found.moving_mass))
+    assert alone.performance.power == pytest.approx(found.performance.power, rel=1e-5)
+
+
+def test_an_engine_that_breathes_is_designed(base):
+    ports = laws.PortFlow(exhaust_width=0.1, exhaust_height=0.03, intake_width=0.1)
+    design = Design(laws=base.replace(gas_exchange=ports)).replace(
+        {"egr": 0.0, "intake_pressure": 1.4e5, "equivalence_ratio": 0.4}
+    )
+    found = saleg.design.evaluate(design)
+    assert found.engine.left.gas_exchange == ports
+    assert found.scavenging[0].delivery_ratio > 0.5
+    alone_agrees(found)
+
+
+def test_an_engine_with_one_spring_is_designed(base):
+    spring = laws.OneSidedSprings(right_stiffness=1.0, right_contact=-0.03)
+    engine = saleg.Engine(
+        saleg.Translator(mass=5.0),
+        base.left,
+        None,
+        springs=spring,
+        friction=base.friction,
+        alternator=laws.LinearLoad(load_constant=40.0),
+    )
+    design = Design(laws=engine, masses=MassModel(pistons=saleg.design.OnePiston()))
+    found = saleg.design.evaluate(design, equivalence_ratio=0.5, spring_stiffness=60e3)
+    assert found.engine.springs == dataclasses.replace(spring, right_stiffness=60e3)
+    alone_agrees(found)
 
 
 @pytest.mark.parametrize(

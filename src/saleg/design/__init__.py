@@ -27,6 +27,7 @@ from saleg.design.masses import (
     Masses,
     MassModel,
     MechanicalSprings,
+    OnePiston,
     PistonHeads,
     UnlikePistons,
 )
@@ -50,6 +51,7 @@ __all__ = [
     "MassModel",
     "Masses",
     "MechanicalSprings",
+    "OnePiston",
     "Operation",
     "Parameters",
     "PistonHeads",

@@ -11,7 +11,7 @@ from typing import Any
 from saleg.design.formulas import port_clearance
 from saleg.design.masses import MassModel
 from saleg.design.parameters import Parameters
-from saleg.engine import BounceChamber, Cylinder, Engine
+from saleg.engine import BounceChamber, Cylinder, Engine, OpenEnd
 from saleg.engine.paths import claimed, exists, known_paths, unit_of, with_value
 from saleg.engine.paths import get as get_path
 from saleg.errors import UnknownPath, WrongFields, nearest
@@ -62,8 +62,10 @@ class Design:
         The eight of Table 8.
     laws : Engine
         Everything else: laws and empirical constants. What the eight parameters say, and the
-        moving mass, is replaced. It must be mirrored, or have a cylinder on the left and a gas
-        spring on the right, which stays as it is.
+        moving mass, is replaced. It must be mirrored, or have a cylinder on the left and on the
+        right a gas spring, which stays as it is, or an open end with a spring that pushes it back.
+        Where gas flows through ports these stay as they are, and `egr` must be 0: what is retained
+        follows from the flow.
     masses : MassModel
         How heavy the components are.
 
@@ -98,8 +100,8 @@ class Design:
         """The engine of this design with a given moving mass [kg]."""
         p, laws = self.parameters, self.laws
         side: Any = laws.left
-        springs: Any = laws.springs
-        cylinder = dataclasses.replace(
+        springs, exchange = laws.springs, side.gas_exchange
+        cylinder: Any = dataclasses.replace(
             side,
             bore=p.bore,
             half_stroke=p.half_stroke,
@@ -108,14 +110,14 @@ class Design:
             intake=dataclasses.replace(
                 side.intake, pressure=p.intake_pressure, temperature=p.intake_temperature
             ),
-            gas_exchange=dataclasses.replace(side.gas_exchange, egr=p.egr),
+            gas_exchange=_with(exchange, **({} if _flows(exchange) else {"egr": p.egr})),
         )
         return dataclasses.replace(
             laws,
             translator=dataclasses.replace(laws.translator, mass=moving_mass),
             left=cylinder,
             right=cylinder if laws.is_mirrored else laws.right,
-            springs=dataclasses.replace(springs, stiffness=p.spring_stiffness),
+            springs=_with(springs, **{_stiffness_of(laws): p.spring_stiffness}),
         )
 
     def get(self, path: str) -> Any:
@@ -230,16 +232,39 @@ class Design:
     def _problems_of_laws(self) -> list[Problem]:
         """What keeps the eight parameters from being put into the engine."""
         laws, wrong = self.laws, []
-        springs: Any = laws.springs
-        if not laws.is_mirrored and not isinstance(laws.right, BounceChamber):
-            wrong.append("must be a mirrored engine, or have a gas spring on the right")
+        if not laws.is_mirrored and not isinstance(laws.right, BounceChamber | OpenEnd):
+            wrong.append("must be mirrored, or have a gas spring or an open end on the right")
         elif not isinstance(laws.left, Cylinder):
             wrong.append("must have cylinders with ports, on both sides or on the left")
-        elif "egr" not in {item.name for item in fields(laws.left.gas_exchange)}:  # type: ignore[arg-type]
+        elif not (_flows(laws.left.gas_exchange) or _has(laws.left.gas_exchange, "egr")):
             wrong.append("must have a gas exchange with a share of exhaust gas retained, egr")
-        if "stiffness" not in {item.name for item in fields(springs)}:
-            wrong.append("must have springs with a stiffness")
-        return [Problem("laws", laws.name, "-", why) for why in wrong]
+        if not _has(laws.springs, _stiffness_of(laws)):
+            wrong.append(f"must have springs with a {_stiffness_of(laws)}")
+        found = [Problem("laws", laws.name, "-", why) for why in wrong]
+        if _flows(getattr(laws.left, "gas_exchange", None)) and self.parameters.egr != 0.0:
+            allowed = "must be 0: gas flows through the ports, what is retained follows"
+            found.append(Problem("egr", self.parameters.egr, "-", allowed))
+        return found
+
+
+def _flows(exchange: Any) -> bool:
+    """Whether gas flows through the ports of a law of gas exchange."""
+    return "contents" in getattr(exchange, "states", ())
+
+
+def _stiffness_of(laws: Engine) -> str:
+    """Number of the springs that the parameter `spring_stiffness` is."""
+    return "right_stiffness" if isinstance(laws.right, OpenEnd) else "stiffness"
+
+
+def _has(law: Any, name: str) -> bool:
+    """Whether a law has a number of that name."""
+    return name in {item.name for item in fields(law)}
+
+
+def _with(law: Any, **numbers: float) -> Any:
+    """A law with some numbers replaced."""
+    return dataclasses.replace(law, **numbers)
 
 
 #: What people write a parameter in by mistake.

@@ -133,6 +133,22 @@ class UnlikePistons(Quantities):
 
 
 @dataclass(frozen=True)
+class OnePiston:
+    """Head of the only piston (half of Eq. 65), of an engine with an open end.
+
+    Examples
+    --------
+    >>> at = Operation(0.1807, 47.0, 22.6e3)
+    >>> 2.0 * OnePiston().mass(Parameters(), at) == PistonHeads().mass(Parameters(), at)
+    True
+    """
+
+    def mass(self, parameters: Parameters, operation: Operation) -> float:
+        """Mass of the head [kg]."""
+        return 0.5 * formulas.piston_mass(parameters.bore)
+
+
+@dataclass(frozen=True)
 class ConnectingRod(Quantities):
     """Rod from piston to piston (Eq. 62, 63, 66).
 

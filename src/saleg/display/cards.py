@@ -13,7 +13,12 @@ from saleg.display.numbers import inputs, number
 from saleg.display.page import card, column, details, figures, raised
 from saleg.display.svg import LEFT, RIGHT, Curve, chart, picture, tag, text
 from saleg.simulation.readable import readable
-from saleg.simulation.report import describe_ranges, describe_remarks, figure_rows
+from saleg.simulation.report import (
+    describe_ranges,
+    describe_remarks,
+    figure_rows,
+    scavenging_rows,
+)
 
 if TYPE_CHECKING:
     from saleg.engine import Engine
@@ -63,8 +68,9 @@ def performance_card(performance: Performance) -> str:
 def run_card(run: Run) -> str:
     """How a run ended, its key figures and its p-V loops."""
     told = f"run of {number(run.duration)} s: {run.status} - {run.message}"
-    notes = [line.strip() for line in (*describe_ranges(run), *describe_remarks(run.remarks))]
-    return card(run.engine.name, told, *_cycle(run.performance, run.orbit), notes=notes)
+    notes = [line.strip() for line in (*describe_ranges(run.orbit), *describe_remarks(run.remarks))]
+    parts = _cycle(run.performance, run.orbit, exchanged=scavenging_rows(run.scavenging))
+    return card(run.engine.name, told, *parts, notes=notes)
 
 
 def steady_card(found: SteadyState, added: Iterable[tuple[str, str, str]] = ()) -> str:
@@ -73,8 +79,11 @@ def steady_card(found: SteadyState, added: Iterable[tuple[str, str, str]] = ()) 
     rows = [*added]
     if found.has_multipliers:
         rows.append(("stability", found.stability.kind, ""))
-    notes = [line.strip() for line in describe_remarks(found.remarks)]
-    return card(found.engine.name, told, *_cycle(found.performance, found.orbit, rows), notes=notes)
+    remarks = *describe_ranges(found.orbit), *describe_remarks(found.remarks)
+    notes = [line.strip() for line in remarks]
+    exchanged = scavenging_rows(found.scavenging)
+    parts = _cycle(found.performance, found.orbit, rows, exchanged)
+    return card(found.engine.name, told, *parts, notes=notes)
 
 
 def balance_card(balance: EnergyBalance) -> str:
@@ -131,13 +140,18 @@ def bars(shares: dict[str, float]) -> str:
 
 
 def _cycle(
-    performance: Performance, orbit: Run | None, added: Sequence[tuple[str, str, str]] = ()
+    performance: Performance,
+    orbit: Run | None,
+    added: Sequence[tuple[str, str, str]] = (),
+    exchanged: Sequence[tuple[str, str, str]] = (),
 ) -> list[str]:
     """Key figures of a cycle with all others to open, and its p-V loops."""
     rows = figure_rows(performance)
     others = [row for name, row in rows.items() if name not in KEY]
     numbers = figures([*(rows[name] for name in KEY), *added])
-    parts = [column(numbers, details("all figures", figures(others)))]
+    more = [details("all figures", figures(others))]
+    more += [details("gas exchange", figures(exchanged))] if exchanged else []
+    parts = [column(numbers, *more)]
     return parts if orbit is None else [*parts, pressure_loops(orbit)]
 
 

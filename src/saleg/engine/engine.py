@@ -32,10 +32,19 @@ from saleg.laws import (
     Law,
     LinearLoad,
     LinearSprings,
+    NoScatter,
     PortFlow,
     ViscousFriction,
 )
-from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Alternator, Frame, Friction, Springs
+from saleg.laws.base import (
+    CHAMBER_SLOTS,
+    ENGINE_SLOTS,
+    Alternator,
+    Frame,
+    Friction,
+    Scatter,
+    Springs,
+)
 from saleg.laws.contract import check_laws
 from saleg.quantities import Problem, fields_of, is_number, problems, unusual
 
@@ -52,7 +61,7 @@ class Engine:
     translator : Translator
     left, right : Cylinder, SealedCylinder, BounceChamber or OpenEnd
         None stands for an open end: an engine with one chamber, returned by its springs.
-    springs, friction, alternator, frame : Law
+    springs, friction, alternator, frame, scatter : Law
         The laws in the engine's slots.
     start : Start
         How a run begins.
@@ -76,6 +85,7 @@ class Engine:
     friction: Friction = field(default_factory=ViscousFriction)
     alternator: Alternator = field(default_factory=LinearLoad)
     frame: Frame = field(default_factory=FixedFrame)
+    scatter: Scatter = field(default_factory=NoScatter)
     start: Start = field(default_factory=CompressedCharge)
     name: str = "engine"
 

@@ -29,7 +29,7 @@ from saleg.engine.start import Start
 from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest, shown
 from saleg.files.entry_points import offered
 from saleg.files.reading import read_text
-from saleg.laws import FixedFrame, FixedWall, NoLeak, Plenum
+from saleg.laws import FixedFrame, FixedWall, NoLeak, NoScatter, Plenum
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, FlowExchange
 from saleg.quantities import is_number
 
@@ -38,7 +38,7 @@ SLOTS: dict[str, type] = {**CHAMBER_SLOTS, **ENGINE_SLOTS, "start": Start}
 #: Classes that laws derive from, and no laws themselves.
 BASES = (*SLOTS.values(), FlowExchange)
 #: Laws a file does not name: what stands in their slots if nothing is said.
-UNSAID = (NoLeak, FixedWall, Plenum, FixedFrame)
+UNSAID = (NoLeak, FixedWall, Plenum, FixedFrame, NoScatter)
 #: Numbers that came later: a file names them only where they are not the default, so that folders
 #: of sweeps begun before still know their engine.
 LATER = ("back_area", "back_pressure", "burnt_shares")
@@ -184,7 +184,10 @@ def _table(path: str, node: Any) -> list[str]:
         if dataclasses.is_dataclass(value):
             below += _table(f"{path}.{item.name}", value)
         else:
-            lines.append(f"{item.name} = {_number_text(value)}{_unit_comment(item)}")
+            limits = item.metadata.get("limits")
+            whole = limits is not None and limits.kind is int
+            text = repr(value) if whole else _number_text(value)
+            lines.append(f"{item.name} = {text}{_unit_comment(item)}")
     return lines + below
 
 
@@ -296,7 +299,8 @@ class _Reader:
         if not is_number(value):
             self.wrong.append(f"{path} = {_short(value)}: must be a number")
             return None
-        return float(value)
+        limits = item.metadata.get("limits")
+        return float(value) if limits is None or limits.kind is float else value
 
     def _is_table(self, value: Any, path: str) -> bool:
         if isinstance(value, dict):

@@ -71,11 +71,11 @@ GENERATIONS: tuple[tuple[str, ...], ...] = (
         "crankcase_work",
         "wall_temperature",
     ),
-    ("frame_energy", "mount_loss", "shaking_force", "frame_x", "frame_v"),
+    ("frame_energy", "mount_loss", "shaking_force", "frame_x", "frame_v", "mass", "burnt"),
 )
 LATER_FIELDS = tuple(name for names in GENERATIONS for name in names)
 #: Those of them that are not known where a file lacks them; of the others nothing was there: 0.
-UNKNOWN_BEFORE = ("shaking_force",)
+UNKNOWN_BEFORE = ("shaking_force", "mass", "burnt")
 
 #: Words for the whole numbers in a column, by the column's name.
 CODES = {"event": layout.EVENT_NAMES, "side": ("left", "right")}

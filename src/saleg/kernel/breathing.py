@@ -208,7 +208,7 @@ def chamber_flows(P, C, side, y, gas):
     leak = flow_in(P, side, leak_area(P, side, gas), gas, g, R, p_leak, T_leak)
     # Compositions: of the supply with fuel metered to its air at the ports, of what leaves, of the
     # gas.
-    metered = c.equivalence_ratio_wanted * (1.0 - supply.burnt)
+    metered = c.fuel_factor * c.equivalence_ratio_wanted * (1.0 - supply.burnt)
     fuel_share = metered / (metered + c.air_fuel_ratio)
     burnt_share = (1.0 - fuel_share) * supply.burnt
     fuel_out, burnt_out, fresh_out = 0.0, 0.0, 0.0

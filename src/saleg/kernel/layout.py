@@ -309,6 +309,8 @@ CHAMBER_RECORD = np.dtype(
     # Way by which the spark comes earlier for the charge in it and for the next one; pressure at
     # the midpoint to which a bounce chamber is to be filled, 0 for none.
     + [(name, np.float64) for name in ("spark_advance", "next_spark_advance", "wanted_pressure")]
+    # Fuel metered to the coming charge over that commanded.
+    + [("fuel_factor", np.float64)]
 )
 
 #: One row per stroke, written at the dead centre that ends it. Values per side are left, right.
@@ -393,6 +395,9 @@ HISTORY_RECORD = np.dtype(
             "heat_loss",
             "ignition",
             "mode",
+            "mass",
+            "burnt",
+            "wall_temperature",
         )
     ]
     + [

@@ -1,9 +1,10 @@
 """One row of the history: everything that can be seen at an instant."""
 
-from saleg.kernel.breathing import has_own_pressure
+from saleg.kernel.breathing import breathes, has_own_pressure, mass_of, wall_of
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    BURNT,
     CURRENT,
     ELECTRICAL_ENERGY,
     FRAME_V,
@@ -49,6 +50,9 @@ def observe(P, E, C, y, dy, motored, row):
         row.heat_loss[side] = dy[N_STATE + HEAT_LOST + side]
         row.ignition[side] = y[IGNITION + side]
         row.mode[side] = C[side].mode
+        row.mass[side] = mass_of(C, side, y)
+        row.burnt[side] = y[BURNT + side] if breathes(C, side) else C[side].burnt
+        row.wall_temperature[side] = wall_of(C, side, y)
     row.spring_force = springs_force(P, motion) + E.back_force
     row.friction_force = friction_force(P, E.friction_held, motion)
     row.alternator_force, _ = alternator_action(P, E, E.t, motion)

@@ -234,6 +234,21 @@ def frame_loss(P: Any, v: float) -> float:
     return P.frame.loss(v)
 
 
+def scatter_fuel_factor(P: Any, charge_number: float, side: float) -> float:
+    """Fuel metered to a charge over that commanded."""
+    return P.scatter.fuel_factor(charge_number, side)
+
+
+def scatter_delay_factor(P: Any, charge_number: float, side: float) -> float:
+    """Value that the ignition integral has to reach."""
+    return P.scatter.delay_factor(charge_number, side)
+
+
+def scatter_duration_factor(P: Any, charge_number: float, side: float) -> float:
+    """Combustion duration over that of the burn law."""
+    return P.scatter.duration_factor(charge_number, side)
+
+
 def call_at(address: Any, numbers: int, memory: int, signals: int, commands: int) -> None:
     """Call a controller by its address; one of Python stands there itself."""
     entry = address if callable(address) else CFUNCTYPE(None, *[c_void_p] * 4)(address)

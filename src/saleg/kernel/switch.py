@@ -89,6 +89,9 @@ from saleg.kernel.slots import (
     heat_release_duration,
     ignition_lights_at_dead_centre,
     misfires_happens,
+    scatter_delay_factor,
+    scatter_duration_factor,
+    scatter_fuel_factor,
     springs_energy,
 )
 from saleg.kernel.state import begin_stroke, clearance_of
@@ -156,6 +159,7 @@ def ignite(P, E, C, side, y, motored):
     c = C[side]
     gas = gas_of(E, C, side, y, motored)
     c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side, y))
+    c.duration *= scatter_duration_factor(P, c.charge_number, 1.0 * side)
     c.mode = BURNING
     c.armed = DISARMED
     c.t_ignition = E.t
@@ -223,6 +227,7 @@ def open_ports(P, E, C, side, y):
         end_combustion(P, E, C, side)
     c = C[side]
     if by_flow(C, side):
+        c.fuel_factor = scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
         c.mode = OPEN
         c.armed = DISARMED
         y[IGNITION + side] = 0.0
@@ -284,8 +289,10 @@ def compose_charge(P, C, side, y, p, T):
     clearance = clearance_of(C, side, y[X])
     volume = c.area * clearance
     mass = p * volume / (c.gas_constant * T)
+    wanted = c.equivalence_ratio_wanted
+    wanted *= scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
     fuel, air, burnt, fresh = gas_exchange_charge(
-        P, side, mass, c.fuel, c.air, c.burnt, c.equivalence_ratio_wanted, c.air_fuel_ratio
+        P, side, mass, c.fuel, c.air, c.burnt, wanted, c.air_fuel_ratio
     )
     c.fresh_fuel_energy += fresh * c.lower_heating_value
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
@@ -318,7 +325,7 @@ def arm_charge(P, C, side, y, p, T, volume):
     c.armed = ARMED if c.fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
-    y[IGNITION + side] = 0.0
+    y[IGNITION + side] = 1.0 - scatter_delay_factor(P, c.charge_number, 1.0 * side)
 
 
 @compiled

@@ -33,6 +33,7 @@ from saleg.laws.base import (
     Law,
     Leak,
     Misfires,
+    Scatter,
     Springs,
     Supply,
     Validity,
@@ -92,6 +93,7 @@ from saleg.laws.ignition import (
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
+from saleg.laws.scatter import CyclicVariability, NoScatter
 from saleg.laws.springs import (
     AirSprings,
     EndStops,
@@ -129,6 +131,7 @@ __all__ = [
     "CosineForce",
     "CoulombViscousFriction",
     "Crankcase",
+    "CyclicVariability",
     "DeadCentreRegulator",
     "DoubleWiebe",
     "Drive",
@@ -178,6 +181,7 @@ __all__ = [
     "NoHeatTransfer",
     "NoLeak",
     "NoMisfires",
+    "NoScatter",
     "OneSidedSprings",
     "PhaseLockedMotor",
     "Plenum",
@@ -196,6 +200,7 @@ __all__ = [
     "ResonanceSearch",
     "RingLeak",
     "ScaledLoad",
+    "Scatter",
     "ScheduledMisfires",
     "Signals",
     "SinusoidalMotor",

@@ -411,6 +411,29 @@ class Frame(Law):
         return 0.0
 
 
+class Scatter(Law):
+    """What differs from charge to charge: factors on what the other laws say, asked once a charge.
+
+    `charge_number` counts the charges of a cylinder; `side` is 0 for the left one, 1 for the right.
+    """
+
+    slot = "scatter"
+    compiled = ("fuel_factor", "delay_factor", "duration_factor")
+    optional = compiled
+
+    def fuel_factor(self, charge_number: float, side: float) -> float:
+        """Fuel metered to a charge over that commanded [-]."""
+        return 1.0
+
+    def delay_factor(self, charge_number: float, side: float) -> float:
+        """Value that the ignition integral has to reach [-]."""
+        return 1.0
+
+    def duration_factor(self, charge_number: float, side: float) -> float:
+        """Combustion duration over that of the burn law [-]."""
+        return 1.0
+
+
 #: Slots of one chamber and slots of the whole engine, by name.
 CHAMBER_SLOTS: dict[str, type[Law]] = {
     law.slot: law
@@ -427,5 +450,5 @@ CHAMBER_SLOTS: dict[str, type[Law]] = {
     )
 }
 ENGINE_SLOTS: dict[str, type[Law]] = {
-    law.slot: law for law in (Springs, Friction, Alternator, Frame)
+    law.slot: law for law in (Springs, Friction, Alternator, Frame, Scatter)
 }

@@ -274,6 +274,7 @@ class RunningEngine:
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, CombustionChamber)
         c.duration = chamber.heat_release.duration(self.gas(side), self.charge(side))
+        c.duration *= self.engine.scatter.duration_factor(c.number, float(side))
         burnable = min(c.fuel, c.air / chamber.fuel.air_fuel_ratio)
         c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
         c.mode, c.armed, c.t_ignition, c.mass_lit = layout.BURNING, 0.0, self.t, c.mass
@@ -329,6 +330,7 @@ class RunningEngine:
             self.end_combustion(side)
         c.mode, c.armed = layout.OPEN, 0.0
         self.y[INTEGRAL + side] = 0.0
+        c.fuel_factor = self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
         if c.by_flow:
             self.y[layout.FRESH + side] = 0.0
             return
@@ -371,8 +373,9 @@ class RunningEngine:
         c, chamber, totals = self.chambers[side], self.engine.chambers[side], self.totals[side]
         assert isinstance(chamber, CombustionChamber)
         fuel_before, ratio = c.fuel, chamber.fuel.air_fuel_ratio
+        factor = self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
         c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
-            c.mass, c.fuel, c.air, c.burnt, chamber.equivalence_ratio, ratio
+            c.mass, c.fuel, c.air, c.burnt, factor * chamber.equivalence_ratio, ratio
         )
         put_state(chamber, c, self.y, side, p, T)
         self._trap(side, p, T)
@@ -391,7 +394,8 @@ class RunningEngine:
         c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:
             c.armed = layout.FAILING
-        self.y[INTEGRAL + side] = 0.0
+        factor = self.engine.scatter.delay_factor(c.number, float(side))
+        self.y[INTEGRAL + side] = 1.0 - factor
 
     # Dead centres.
 

@@ -85,6 +85,8 @@ class ChamberState:
         Clearance at the ports [m], state of the intake [Pa, K].
     equivalence_ratio_wanted, air_fuel_ratio, lower_heating_value : float
         Of fresh gas and of the fuel [-, -, J/kg].
+    fuel_factor : float
+        Fuel metered to the coming charge over that commanded [-].
     mass_lit, fresh : float
         Mass of the charge when it was lit, and fresh gas in it when it was trapped [kg].
     """
@@ -121,6 +123,7 @@ class ChamberState:
     equivalence_ratio_wanted: float = 0.0
     air_fuel_ratio: float = 1.0
     lower_heating_value: float = 0.0
+    fuel_factor: float = 1.0
     mass_lit: float = 1.0
     fresh: float = 0.0
 

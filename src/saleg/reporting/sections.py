@@ -15,9 +15,8 @@ from saleg.plotting.cycle import NoCycle
 from saleg.plotting.energy import balance_of
 from saleg.reporting import charts
 from saleg.reporting.subject import Subject
-from saleg.simulation.ranges import range_exits
 from saleg.simulation.readable import readable
-from saleg.simulation.report import describe_exits, figure_rows
+from saleg.simulation.report import describe_ranges, figure_rows, scavenging_rows
 from saleg.simulation.run import Run
 from saleg.studies.elasticities import elasticities
 
@@ -31,6 +30,7 @@ def sections(subject: Subject) -> Iterator[str]:
     yield key_figures(subject)
     yield machine(subject)
     yield cycle(subject)
+    yield gas_exchange(subject)
     yield stability(subject)
     yield sensitivity(subject)
     yield validity(subject)
@@ -122,6 +122,15 @@ def cycle(subject: Subject) -> str:
     return section("Cycle", f'<div class="grid pictures">{"".join(pictures)}</div>', missing)
 
 
+def gas_exchange(subject: Subject) -> str:
+    """Figures of the gas exchange; nothing for an engine through whose ports no gas flows."""
+    rows = scavenging_rows(subject.result.scavenging)
+    if not rows:
+        return ""
+    told = "left | right where the sides differ; masses over a charge at the state of the intake"
+    return section("Gas exchange", figures(rows), paragraph(told, "faint"))
+
+
 def stability(subject: Subject) -> str:
     """What becomes of small disturbances of the steady state."""
     steady = subject.steady
@@ -166,9 +175,7 @@ def validity(subject: Subject) -> str:
     """Where the engine, its laws and its figures leave what is known."""
     orbit, result = subject.orbit, subject.result
     notes = [f"unusual: {problem}" for problem in subject.engine.unusual()]
-    if orbit is not None and orbit.history_rows is not None:
-        exits = range_exits(subject.engine, orbit.strokes, orbit.history_rows)
-        notes += [line.strip() for line in describe_exits(exits)]
+    notes += [line.strip() for line in describe_ranges(orbit)]
     notes += [f"beyond what is built: {remark}" for remark in result.remarks]
     listed = "".join(f"<li>{escape(note)}</li>" for note in notes)
     always = (

@@ -277,7 +277,7 @@ def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
     c.breathes = float("contents" in chamber.states)
     if isinstance(chamber, Cylinder):
         c.by_flow = float("contents" in chamber.gas_exchange.states)
-    c.air_fuel_ratio = 1.0
+    c.air_fuel_ratio = c.fuel_factor = 1.0
     if isinstance(chamber, SealedCylinder):
         c.curve_exponent = chamber.curve_exponent
     if isinstance(chamber, CombustionChamber):

@@ -46,6 +46,8 @@ BY_NAME = {
     "heat_transfer_share": "%",
     "friction_share": "%",
     "charge_mass": "g",
+    "trapped_mass": "g",
+    "short_circuited": "g",
     "spring_force": "kN",
     "step": "µs",
     "t": "s",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from saleg.engine import Cylinder, Engine
+from saleg.simulation.performance import figure
 
 
 @dataclass(frozen=True)
@@ -40,15 +42,20 @@ class Scavenging:
         Work of the piston on its crankcase [J]; 0 without one.
     """
 
-    delivery_ratio: float
-    charging_efficiency: float
-    trapping_efficiency: float
-    scavenging_efficiency: float
-    residual_fraction: float
-    trapped_mass: float
-    trapped_temperature: float
-    short_circuited: float
-    pumping_work: float
+    delivery_ratio: float = figure("-", "delivery ratio", 3)
+    charging_efficiency: float = figure("-", "charging efficiency", 3)
+    trapping_efficiency: float = figure("-", "trapping efficiency", 3)
+    scavenging_efficiency: float = figure("-", "scavenging efficiency", 3)
+    residual_fraction: float = figure("-", "residual fraction", 3)
+    trapped_mass: float = figure("kg", "trapped mass", 4)
+    trapped_temperature: float = figure("K", "trapped at", 1)
+    short_circuited: float = figure("kg", "fresh gas lost", 4)
+    pumping_work: float = figure("J", "pumping work per cycle", 2)
+
+    @property
+    def is_known(self) -> bool:
+        """Whether gas flows through the ports of the chamber, and there was a cycle."""
+        return not math.isnan(self.delivery_ratio)
 
 
 def scavenging_of(engine: Engine, cycle: np.ndarray | None) -> tuple[Scavenging, Scavenging]:
@@ -70,7 +77,7 @@ def _of_side(engine: Engine, cycle: np.ndarray | None, side: int) -> Scavenging:
         or not isinstance(cylinder, Cylinder)
         or "contents" not in cylinder.gas_exchange.states
     ):
-        return Scavenging(**{item.name: math.nan for item in fields(Scavenging)})
+        return Scavenging(**{item.name: math.nan for item in dataclasses.fields(Scavenging)})
     full = cylinder.reference_state
     density = full.pressure / (cylinder.gas_properties.gas_constant * full.temperature)
     reference = density * cylinder.area * full.clearance

@@ -51,7 +51,7 @@ from saleg.kernel.orbit import (
 )
 from saleg.kernel.orbits import Searches
 from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
-from saleg.laws import NoHeatTransfer, NoMisfires
+from saleg.laws import NoHeatTransfer, NoMisfires, NoScatter
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
 from saleg.laws.base import Alternator, Law
 from saleg.simulation.course import STEPS_PER_CALL, options_record
@@ -468,6 +468,8 @@ def is_adiabatic(chamber: Chamber) -> bool:
 
 def repeats_itself(engine: Engine) -> bool:
     """Whether nothing in an engine depends on the time or on the number of the charge."""
+    if not isinstance(engine.scatter, NoScatter):
+        return False
     for chamber in engine.chambers:
         if not isinstance(getattr(chamber, "misfires", NoMisfires()), NoMisfires):
             return False

@@ -22,6 +22,7 @@ from saleg.engine.start import CompressedCharge, Start, standard_charge
 from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.tuples import Snapshots
+from saleg.laws import NoScatter
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import State, natural_period, prepare
@@ -279,14 +280,14 @@ class SteadyState:
         return steady_card(self)
 
     def __str__(self) -> str:
-        from saleg.simulation.report import describe_performance, describe_remarks
+        from saleg.simulation.report import describe_cycle
 
         known = vars(self).get("stability")
         stable = "stability not examined" if known is None else known.kind
         head = f"{self.engine.name}: {self.status} ({stable}) - {self.message}"
         head = head if self.found else head.replace(f" ({stable})", "")
-        shown = describe_performance(self.performance)
-        return "\n".join([head, shown, *describe_remarks(self.remarks)])
+        shown = describe_cycle(self.performance, self.scavenging, self.orbit, self.remarks)
+        return "\n".join([head, *shown])
 
 
 @renamed_keywords(most="max_maps")
@@ -357,6 +358,8 @@ def _found(engine: Engine, rtol: float, max_maps: int, effort: Effort) -> Steady
     quick = effort is Effort.QUICK
     if not repeats_itself(engine):
         why = "a law depends on time or counts charges"
+        if not isinstance(engine.scatter, NoScatter):
+            why = "charges scatter; the mean engine's state is that with NoScatter()"
         return not_found(engine, 0, 0, why) if quick else waited_for(engine, rtol, 0, 0, why)
     if quick:
         return _solved(engine, rtol, min(max_maps, QUICK_MAPS), quick)

@@ -20,6 +20,7 @@ from saleg.studies.convergence import (
 )
 from saleg.studies.elasticities import MAIN_FIGURES, elasticities
 from saleg.studies.printed import beside_thesis
+from saleg.studies.variability import VARIABILITY_UNITS, variability
 
 __all__ = [
     "DELAYED",
@@ -28,6 +29,7 @@ __all__ = [
     "TABLE_2_STEPS",
     "TABLE_4_TIMES",
     "UNITS",
+    "VARIABILITY_UNITS",
     "WARM_UP",
     "StudyError",
     "beside_thesis",
@@ -40,5 +42,6 @@ __all__ = [
     "step_size_study",
     "stop_time_study",
     "tolerance_study",
+    "variability",
     "work_precision",
 ]
