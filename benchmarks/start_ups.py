@@ -17,7 +17,7 @@ from saleg.control import Sensors
 from saleg.engine.start import AtRest
 from saleg.laws import PhaseLockedMotor, PositionSensor, PushAlong, ResonanceSearch
 
-FORCE, DURATION, NOISE = 264.0, 3.5, 1e-4
+FORCE, DURATION, NOISE = 264.0, 6.0, 1e-4
 SENSOR = PositionSensor(sample_time=2e-4, noise=NOISE)
 
 
@@ -50,7 +50,7 @@ def starts(count: int, seed: int = 1) -> pd.DataFrame:
         engine, base_frequency = engine_off(rng.uniform(0.9, 1.1, 3)), rng.uniform(20.0, 60.0)
         sensors = Sensors(position_noise=NOISE, seed=n)
         for name, controller in controllers(base_frequency, n).items():
-            run = control.simulate(engine, controller, DURATION, sensors=sensors)
+            run = control.simulate(engine, controller, DURATION, sensors=sensors, rtol=1e-6)
             last = run.dead_centres.iloc[-1]
             runs_alone = not last.motoring and last.power > 0.0
             rows.append(
