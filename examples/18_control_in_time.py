@@ -84,13 +84,18 @@ def main() -> None:
         print(f"110 N against {friction:g} N s/m: compression ratio 9 at {reached:.2f} s")
         assert reached < 0.8
 
-    # A controller of one's own in Python, at sample times: a spring of the alternator's making.
-    plant = Plant(saleg.machines.thesis_transient(), 0.3)
+    # In Python, at sample times: a load that goes by how far the translator has come since the last.
+    firing = saleg.machines.thesis_transient()
+    plant, before = Plant(firing, 0.5), firing.start.initial(firing).x
     while plant.running:
-        force = -2e3 * plant.signals.position
+        v = (plant.signals.position - before) / 2e-4
+        before = plant.signals.position
+        force = -firing.alternator.load_constant * v
         plant.command(generator(plant.signals, sets_force=1.0, force=force))
         plant.advance(2e-4)
-    print(f"a spring made by the alternator: {plant.run().message}")
+    power = plant.run().dead_centres.power.tail(10).mean()
+    print(f"a load in Python: {power:.0f} W on the bus; {plant.run().message}")
+    assert power > 2000.0
 
 
 if __name__ == "__main__":
