@@ -34,6 +34,8 @@ PUBLIC = (
     "saleg.plotting.sensitivity",
     "saleg.plotting.studies",
     "saleg.plotting.sweeps",
+    "saleg.plugs",
+    "saleg.plugs.gymnasium",
     "saleg.quantities",
     "saleg.reference",
     "saleg.reporting",

@@ -46,6 +46,7 @@ if TYPE_CHECKING:  # imported on first use
     from saleg import fundamental as fundamental
     from saleg import optimize as optimize
     from saleg import plotting as plotting
+    from saleg import plugs as plugs
     from saleg import reference as reference
     from saleg import studies as studies
     from saleg import sweep as sweep

@@ -19,6 +19,7 @@ LAZY = (
     "fundamental",
     "optimize",
     "plotting",
+    "plugs",
     "reference",
     "sensitivity",
     "studies",

@@ -74,6 +74,10 @@ SEARCH = (
     "compiler/run_at.py",
 )
 INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "differences", "run_plainly")
+#: Many engines under commands: of the laws they call the actuators', and the integrator by its
+#: address. Where numba has no addresses it is compiled into them.
+PLANTS = ("needs", "flow", "breathing", "rhs", "control", "plants", "compiler/run_at.py")
+INTEGRATOR_WITH_PLANTS = (*INTEGRATOR, "plants", "run_plainly")
 
 #: What the marks of :mod:`saleg.kernel.jit` mean in a composed module. A function first met in one
 #: that is folded into its callers would inherit that, if it were not told. Only entry points get
@@ -203,7 +207,7 @@ def _kernel_text(name: str, needs: Needs, width: int) -> str:
     elif name == "adaptive":
         written = adaptive_step(needs.states, needs.kept, needs.sums)
     else:
-        return own_text(f"kernel/{name}.py")
+        return own_text(name if "/" in name else f"kernel/{name}.py")
     return f"# --- kernel/{name}.py\n{written}"
 
 

@@ -28,6 +28,7 @@ from saleg.control.moments import (
     ports_opened_at,
 )
 from saleg.control.plant import Plant
+from saleg.control.plants import Plants
 from saleg.control.running import (
     fired_at,
     generator,
@@ -43,6 +44,7 @@ __all__ = [
     "Demand",
     "OperatingMap",
     "Plant",
+    "Plants",
     "Sensors",
     "bus_energy",
     "demand_by_fuel",

@@ -87,6 +87,7 @@ class Plant:
         self._course = course
         self._end = float(course.options["t_end"][0])
         self._code = layout.BUFFER_FULL
+        self._misfired = False
         self._commanded = False
         self._latest: Commands | None = None
         self._at_dead_centres = True
@@ -118,6 +119,16 @@ class Plant:
     def running(self) -> bool:
         """Whether there is time left and nothing has ended the motion."""
         return self._code == layout.BUFFER_FULL
+
+    @property
+    def time_is_up(self) -> bool:
+        """Whether it has come to the end of its time."""
+        return self._code == layout.END_OF_TIME
+
+    @property
+    def misfired(self) -> bool:
+        """Whether a charge failed to light in the latest advance."""
+        return self._misfired
 
     @property
     def signals(self) -> Signals:
@@ -177,9 +188,10 @@ class Plant:
                 raise SettingsError(f"duration = {duration!r}: too short to move the time on [s]")
             self._at_dead_centres = False
             O["last_stroke"], O["t_end"] = math.inf, min(end, self.time + duration)
-        code = layout.BUFFER_FULL
+        code, self._misfired = layout.BUFFER_FULL, False
         while code == layout.BUFFER_FULL:
             code = self._course.advance()
+            self._misfired |= self._course.misfired
         if code != layout.END_OF_TIME or self.time >= end:
             self._code = code
 

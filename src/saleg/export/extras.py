@@ -8,7 +8,13 @@ from typing import Any
 from saleg.errors import SalegError
 
 #: Extra of saleg that brings a package.
-EXTRAS = {"h5py": "hdf5", "xarray": "xarray", "h5netcdf": "xarray"}
+EXTRAS = {
+    "gymnasium": "rl",
+    "h5netcdf": "xarray",
+    "h5py": "hdf5",
+    "pythonfmu": "fmu",
+    "xarray": "xarray",
+}
 
 
 class MissingExtra(SalegError, ImportError):

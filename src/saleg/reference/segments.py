@@ -137,7 +137,9 @@ def scales(running: RunningEngine, speed: float) -> np.ndarray:
     scale[POSITION], scale[VELOCITY] = length, speed
     scale[PRESSURE:QUADRATURES] = energy / (length * running.piston_area)
     scale[INTEGRAL : INTEGRAL + 2] = 1.0
-    scale[ALTERNATOR_CURRENT] = current_scale(running.engine, running.machine.load_weight, speed)
+    scale[ALTERNATOR_CURRENT] = current_scale(
+        running.engine.alternator, running.machine.load_weight, speed
+    )
     scale[QUADRATURES + layout.ELECTRICAL_SQUARED] = energy**2 / time
     scale[QUADRATURES + layout.ALTERNATOR_IMPULSE] = running.machine.mass * speed
     scale[QUADRATURES + layout.SPEED_SQUARED] = speed**2 * time

@@ -12,7 +12,7 @@ import numpy as np
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.engine import Engine
 from saleg.kernel import layout, tableaus
-from saleg.kernel.tuples import Snapshots
+from saleg.kernel.tuples import Integration, Snapshots
 from saleg.laws.arguments import Commands
 from saleg.simulation.initial_state import State
 from saleg.simulation.kernel_arguments import arguments_of
@@ -80,8 +80,15 @@ class Course:
             options=self.options,
             tables=self.records.tables,
         )
+        #: Whether a charge failed to light in the latest call of the kernel.
+        self.misfired = False
         #: What else a run says of how it came about.
         self.described: dict[str, Any] = {}
+
+    @property
+    def arguments(self) -> Integration:
+        """Arguments of the integrator."""
+        return self._arguments
 
     @property
     def snapshots(self) -> Snapshots:
@@ -130,6 +137,7 @@ class Course:
     def advance(self) -> int:
         """Call the kernel once; returns why it stopped."""
         code = self.kernel.call("run_on", self._arguments)
+        self.misfired = self.records.has(layout.EVENT_MISFIRE)
         self.records.make_room()
         return int(code)
 

@@ -19,7 +19,7 @@ from saleg.kernel import layout
 from saleg.kernel.rhs import gas_of, rates_of_motion, refresh, rhs
 from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
-from saleg.laws.base import Supply
+from saleg.laws.base import Alternator, Supply
 from saleg.simulation.faulty_law import Fault, asked
 
 if TYPE_CHECKING:
@@ -203,7 +203,7 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
     E.t_sample = math.inf
     E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
-    E.current_scale = current_scale(engine, E.load_weight, E.speed_scale)
+    E.current_scale = current_scale(engine.alternator, E.load_weight, E.speed_scale)
     E.regulated_weight = E.load_weight
     held = engine.frame.acceleration(0.0, 1.0, 0.0) != 0.0
     E.frame_is_held = 1.0 if held else 0.0
@@ -236,11 +236,11 @@ def ratings(engine: Engine) -> tuple[float, float]:
     return ratio, temperature
 
 
-def current_scale(engine: Engine, load_weight: float, speed: float) -> float:
+def current_scale(alternator: Alternator, load_weight: float, speed: float) -> float:
     """Current at which the alternator balances at some speed [m/s], in A; 1 if it has none."""
     weight = max(load_weight, 1.0)
     idle, loaded = (
-        engine.alternator.current_rate(weight, Motion(0.0, 0.0, speed, 1.0, current))
+        alternator.current_rate(weight, Motion(0.0, 0.0, speed, 1.0, current))
         for current in (0.0, 1.0)
     )
     return abs(idle / (idle - loaded)) if idle != 0.0 and idle != loaded else 1.0

@@ -62,6 +62,10 @@ class Records:
         """The buffers as the kernel fills them."""
         return Tables(self.strokes, self.events, self.history, self.filled)
 
+    def has(self, kind: int) -> bool:
+        """Whether an event of a kind is in the buffer."""
+        return bool((self.events["kind"][: self.filled[0]["events"]] == kind).any())
+
     def make_room(self) -> None:
         """Empty the buffers of strokes and events; let that of the history grow where it is.
 
