@@ -1,4 +1,4 @@
-"""Control within the stroke: start-up by a push along the motion, cold, after a stall, and by 110 N.
+"""Control within the stroke: start-up by a push along the motion: cold, after a stall, by 110 N.
 
 Run with ``python examples/18_control_in_time.py``.
 """
@@ -84,7 +84,7 @@ def main() -> None:
         print(f"110 N against {friction:g} N s/m: compression ratio 9 at {reached:.2f} s")
         assert reached < 0.8
 
-    # In Python, at sample times: a load that goes by how far the translator has come since the last.
+    # In Python, at sample times: a load that goes by how far the translator has come since.
     firing = saleg.machines.thesis_transient()
     plant, before = Plant(firing, 0.5), firing.start.initial(firing).x
     while plant.running:

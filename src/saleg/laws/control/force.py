@@ -69,7 +69,7 @@ def tracked_velocity(memory: Any, x: float, sample_time: float, time_constant: f
     Parameters
     ----------
     memory : array
-        Three numbers from :data:`POSITION` on are the filter's; zero at first.
+        Its first three numbers are the filter's [m, m/s, -]; zero at first.
     x : float
         Position measured [m].
     sample_time : float
