@@ -155,5 +155,5 @@ def _rounded(value: float, step: float) -> float:
 def measured(state: State) -> Signals:
     """Signals at a state."""
     values = np.zeros(1, layout.SIGNALS_RECORD).view(np.recarray)
-    write_signals(*state.records, values[0])
-    return Signals(*values[0].tolist())._replace(position=float(state.y[layout.X]))
+    write_signals(*state.records, state.y, values[0])
+    return Signals(*values[0].tolist())

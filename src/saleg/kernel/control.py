@@ -62,8 +62,8 @@ def compression_ratio(C, low, high):
 
 
 @compiled
-def write_signals(E, C, signals):
-    """Fill a record of :class:`saleg.laws.Signals` with the measurements of a dead centre."""
+def write_signals(E, C, y, signals):
+    """Fill a record of :class:`saleg.laws.Signals`: what a dead centre showed, and where it is."""
     # A start in the middle of a stroke has guessed its length alone.
     here = E.x_dead_centre if isfinite(E.x_dead_centre) else -0.5 * E.direction * E.stroke
     before = here + E.direction * E.stroke
@@ -84,7 +84,7 @@ def write_signals(E, C, signals):
     signals.maximum_stroke = E.maximum_stroke
     signals.rated_equivalence_ratio = E.rated_equivalence_ratio
     signals.rated_intake_temperature = E.rated_intake_temperature
-    signals.position = E.x_dead_centre
+    signals.position = y[X]
 
 
 @inline
@@ -108,10 +108,10 @@ def commands_of(record):
 
 
 @compiled
-def ask(E, C, control):
+def ask(E, C, y, control):
     """Commands of the controller; the memory of its parts travels with the engine's record."""
     memory, signals, commands = control.memory, control.signals, control.commands
-    write_signals(E, C, signals[0])
+    write_signals(E, C, y, signals[0])
     for n in range(CONTROL_PARTS * MEMORY):
         memory[n] = E.memory[n]
     commands[0] = commands[1]  # NaN, which stays where the controller fails

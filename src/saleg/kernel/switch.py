@@ -524,7 +524,7 @@ def turn(P, E, C, y, peaks, tables, control):
         c = C[side]
         c.renewal_due = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
     if E.controlled == COMPILED:
-        obey(P, E, C, ask(E, C, control), E.t - E.t_command)
+        obey(P, E, C, ask(E, C, y, control), E.t - E.t_command)
 
 
 @compiled
