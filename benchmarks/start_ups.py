@@ -2,7 +2,8 @@
 
 Run with ``python benchmarks/start_ups.py [COUNT] [PICTURE]``: so many starts for each of three
 controllers, mass, stiffness and friction of the engine off by up to 10 % either way, the base
-frequency anywhere from 20 to 60 Hz, positions noisy by 0.1 mm. A thousand take some ten minutes.
+frequency anywhere from 20 to 60 Hz, positions noisy by 0.1 mm. A thousand take a quarter of
+an hour of one core.
 """
 
 import sys
