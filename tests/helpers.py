@@ -119,7 +119,7 @@ def compiled_method(law, method):
     import numpy as np
 
     from saleg.compiler.records import record_of
-    from saleg.compiler.text import methods_text
+    from saleg.compiler.slot_text import methods_text
 
     names = {"math": math, "np": np, "inline": numba.njit(error_model="numpy")}
     base = next(kind for kind in type(law).__mro__ if "slot" in vars(kind))

@@ -15,7 +15,7 @@ from helpers import compiled_method
 from saleg import InvalidEngine, LawError, UnknownPath
 from saleg.cli import main
 from saleg.compiler.compiled_engine import kernel_for
-from saleg.compiler.text import methods_text
+from saleg.compiler.slot_text import methods_text
 from saleg.engine.start import AtRest, MidpointVelocity
 from saleg.errors import StartError
 from saleg.laws import Friction, InstantExchange, LinearSprings, Springs

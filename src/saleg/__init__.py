@@ -30,9 +30,11 @@ from saleg.errors import (
 from saleg.simulation.integration import simulate
 from saleg.simulation.net_output import Auxiliaries, NetOutput
 from saleg.simulation.performance import EnergyBalance, Performance
+from saleg.simulation.plausibility import Implausible
 from saleg.simulation.run import Run
 from saleg.simulation.scavenging import Scavenging
 from saleg.simulation.shaking import Shaking
+from saleg.simulation.validity import NearestMachine, ValidityReport
 from saleg.status import Status
 from saleg.steady.solver import Effort, SteadyState, steady_state
 from saleg.version import __version__, show_versions
@@ -67,9 +69,11 @@ __all__ = [
     "Engine",
     "EngineFileError",
     "Fuel",
+    "Implausible",
     "Intake",
     "InvalidEngine",
     "LawError",
+    "NearestMachine",
     "NetOutput",
     "OpenEnd",
     "Performance",
@@ -83,6 +87,7 @@ __all__ = [
     "SteadyState",
     "Translator",
     "UnknownPath",
+    "ValidityReport",
     "__version__",
     "laws",
     "machines",

@@ -1,7 +1,6 @@
 """The text of composed modules."""
 
 import re
-from pathlib import Path
 
 import pytest
 
@@ -9,20 +8,19 @@ import saleg
 import saleg.compiler
 from saleg import LawError
 from saleg.compiler import machine_code, search
-from saleg.compiler.compiled_engine import kernel_for
 from saleg.compiler.module import load
 from saleg.compiler.text import INTEGRATOR, REFERENCE, compose, compose_search, own_text
-from saleg.laws.base import CHAMBER_SLOTS
+from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
 
 
 @pytest.fixture(scope="module")
 def text(base):
-    return Path(kernel_for(base).module.__file__).read_text()
+    return compose(classes_of(base))
 
 
 def classes_of(engine):
     sides = [type(side.laws[slot]) for side in engine.chambers for slot in CHAMBER_SLOTS]
-    rest = [engine.springs, engine.friction, engine.alternator, saleg.laws.Actuators()]
+    rest = [*(getattr(engine, slot) for slot in ENGINE_SLOTS), saleg.laws.Actuators()]
     return [*sides, *map(type, rest)]
 
 

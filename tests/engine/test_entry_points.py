@@ -49,7 +49,7 @@ def package(tmp_path, monkeypatch):
 def test_laws_and_machines_of_others_have_names(package, tmp_path):
     with pytest.warns(saleg.SalegWarning, match="no_such_module:rig of saleg.machines"):
         machines = saleg.machines.catalogue()
-    assert set(machines) == {"rig", "thesis-base", "thesis-transient"}
+    assert set(machines) == {"rig", *saleg.machines.CATALOGUE}
     assert machines["thesis-base"] is saleg.machines.thesis_base
     assert "CubicSprings" in laws_by_slot()["springs"]
     path = tmp_path / "rig.toml"

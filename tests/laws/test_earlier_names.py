@@ -9,7 +9,7 @@ import pytest
 import saleg
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.compiler.controllers import control_of
-from saleg.compiler.text import methods_text
+from saleg.compiler.slot_text import methods_text
 from saleg.engine.controller import Controller
 from saleg.laws import Gas, GasProperties, HeatTransfer, StateLogic
 

@@ -12,9 +12,10 @@ from library_laws import LAWS
 from saleg import laws
 from saleg.compiler.imported_text import NoSource
 from saleg.compiler.records import numbers_of, record_of
+from saleg.compiler.slot_text import methods_text
 from saleg.compiler.source import Borrowed
 from saleg.compiler.strength_reduction import EXPONENTIAL
-from saleg.compiler.text import CHOICE, methods_text
+from saleg.compiler.text import CHOICE
 from saleg.kernel.logarithms import Logarithms
 from saleg.laws import Charge, Gas, Motion, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law

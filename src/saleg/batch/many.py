@@ -27,7 +27,8 @@ from saleg.simulation.indicators import closure
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import integrate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
-from saleg.simulation.performance import Performance, cycle_figures, is_remarkable, remarks_on
+from saleg.simulation.performance import Performance, cycle_figures
+from saleg.simulation.plausibility import is_remarkable, remarks_on
 from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
 from saleg.steady.many import Orbits, steady_rows, verdicts

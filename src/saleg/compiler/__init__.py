@@ -34,10 +34,15 @@ So a composed module reads, much shortened::
     # --- kernel/integrate.py
     @cached
 
+The integrator of one engine is such a module in two halves: the kernel with its slots declared
+(:mod:`~saleg.compiler.shared_kernel`), lowered once, and the laws that
+:mod:`~saleg.compiler.linking` links into it.
+
 ``P`` is the record of all numbers of all laws, so another number compiles nothing.
 
 Where to look: :mod:`~saleg.compiler.compiled_engine` is the door the other floors come in by;
-:mod:`~saleg.compiler.text` composes, of methods that :mod:`~saleg.compiler.imported_text` finds,
+:mod:`~saleg.compiler.text` and :mod:`~saleg.compiler.slot_text` compose, of methods that
+:mod:`~saleg.compiler.imported_text` finds,
 :mod:`~saleg.compiler.slips` checks, :mod:`~saleg.compiler.source` makes ready and
 :mod:`~saleg.compiler.strength_reduction` makes cheap, with the step that
 :mod:`~saleg.compiler.unrolled` writes out for what the laws need

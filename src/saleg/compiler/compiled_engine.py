@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from saleg.compiler import plain, records
+from saleg.compiler import machine_code, plain, records
 from saleg.compiler.controllers import control_of, nobody
 from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.kernel import Kernel
 from saleg.compiler.module import load
+from saleg.compiler.needs import Needs
+from saleg.compiler.shared_kernel import shared_kernel
+from saleg.compiler.slot_text import methods_text
 from saleg.compiler.source import fingerprint, is_ours
-from saleg.compiler.text import INTEGRATOR, compose, methods_text
+from saleg.compiler.text import INTEGRATOR, compose, compose_laws
 from saleg.kernel.tuples import Control
 from saleg.laws import (
     Actuators,
@@ -201,14 +204,21 @@ def _composed(
     """Kernel for a choice of law classes in a certain state."""
     kinds = dict.fromkeys(zip(classes, lengths, strict=True))
     own = [kind for kind in kinds if not is_ours(kind[0])]
+    names: dict[str, Any] = {}
+    if width == 1 and modules == INTEGRATOR and machine_code.has_halves():
+        kernel = shared_kernel(Needs.of(classes, motored_pressure))
+        compose_now = partial(compose_laws, classes, kernel.digest)
+        names["LINKED"] = kernel.linked
+    else:
+        given: dict[str, Any] = {"motored_pressure": motored_pressure, "width": width}
+        compose_now = partial(compose, classes, modules, **given)
     injected: dict[str, Any] = {}
-    given: dict[str, Any] = {"motored_pressure": motored_pressure, "width": width}
     try:
-        text = compose(classes, modules, **given)
+        text = compose_now()
     except NoSource as error:
         warn_if_edited(error)
-        text = compose(classes, modules, injected=injected, **given)
+        text = compose_now(injected=injected)
     text = f"# Lengths of the laws' series: {[dict(item) for item in lengths]}\n{text}"
     # What is compiled from bytecode is not kept: the text does not say all of it.
     kind = "kernel" if width == 1 else "lanes"
-    return Kernel(*load(text, kind, injected, keeps=not injected), own)
+    return Kernel(*load(text, kind, names | injected, keeps=not injected), own)

@@ -16,8 +16,9 @@ from saleg.compiler.diagnosis import diagnosed
 from saleg.compiler.imported_text import NoSource, warn_if_edited
 from saleg.compiler.module import load
 from saleg.compiler.records import lengths_of_all, names_of, numbers_of
+from saleg.compiler.slot_text import methods_text
 from saleg.compiler.source import fingerprint, is_ours
-from saleg.compiler.text import CHOICE, COMPILED_HEADER, methods_text, own_text
+from saleg.compiler.text import CHOICE, COMPILED_HEADER, own_text
 from saleg.errors import LawError
 from saleg.kernel import layout
 from saleg.kernel.tuples import Control, Sampling

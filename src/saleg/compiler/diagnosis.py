@@ -12,7 +12,8 @@ from saleg.compiler import machine_code
 from saleg.compiler.module import load
 from saleg.compiler.records import Lengths, record_of_kind
 from saleg.compiler.slips import shown
-from saleg.compiler.text import CHOICE, COMPILED_HEADER, methods_text, own_text
+from saleg.compiler.slot_text import methods_text
+from saleg.compiler.text import CHOICE, COMPILED_HEADER, own_text
 from saleg.laws.base import Law
 from saleg.laws.control.base import MEMORY
 

@@ -11,9 +11,12 @@ This is numba's inside: :mod:`~saleg.compiler.machine_code` asks whether all of 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any
 
-from numba.core import typed_passes, untyped_passes
+from llvmlite.binding import Linkage
+from numba.core import typed_passes, types, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder, Flags
 
@@ -33,7 +36,38 @@ NEEDLESS = frozenset(
 
 
 class InnerLibrary(JITCodeLibrary):
-    """Code of an inner function: linked into its callers' as it is, no machine code of its own."""
+    """Code of an inner function: handed on as it is, no machine code of its own.
+
+    What it calls is linked to it once its entry point asks for it, not into each of its callers.
+    """
+
+    def finalize(self) -> None:
+        """Nothing is linked and nothing optimised yet."""
+        self._raise_if_finalized()
+        self._finalize_final_module()
+
+    def _get_module_for_linking(self) -> Any:
+        """Module of the function and all it calls, callers first: else unused ones are dropped."""
+        self._ensure_finalized()
+        if self._shared_module is None:
+            self._shared_module = self._final_module.clone()
+            for library in self._all_called({self}):
+                inner = isinstance(library, InnerLibrary)
+                module = library._final_module if inner else library._get_module_for_linking()
+                self._shared_module.link_in(module, preserve=True)
+            for function in self._shared_module.functions:
+                if not function.is_declaration and function.linkage == Linkage.external:
+                    function.linkage = "linkonce_odr"
+        return self._shared_module
+
+    def _all_called(self, seen: set[Any]) -> Iterator[Any]:
+        """Libraries of all functions called from here, and by those."""
+        for library in self._linking_libraries:
+            if library not in seen:
+                seen.add(library)
+                yield library
+                if isinstance(library, InnerLibrary):
+                    yield from library._all_called(seen)
 
     @property
     def codegen(self) -> Any:
@@ -46,9 +80,6 @@ class InnerLibrary(JITCodeLibrary):
 
     def _optimize_functions(self, module: Any) -> None:
         module.data_layout = self._codegen._data_layout
-
-    def _optimize_final_module(self) -> None:
-        """Nothing: the entry point is optimised as a whole."""
 
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()
@@ -72,12 +103,56 @@ class QuickFlags(Flags):
         return hash(tuple(self._values))
 
 
+class QuickArguments(tuple[Any, ...]):
+    """Types of arguments; numba writes them out, records and all, for every pass."""
+
+    def __str__(self) -> str:
+        return f"{len(self)} arguments"
+
+
+class QuickTyping:
+    """Typing of calls that remembers builtin functions by what they are called with.
+
+    Numba tries all it knows of an operator anew every time it meets one.
+
+    Parameters
+    ----------
+    context : numba's typing context
+        All else is left to it.
+    """
+
+    def __init__(self, context: Any):
+        self._context = context
+        self._known: dict[Any, Any] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._context, name)
+
+    def resolve_function_type(self, function: Any, arguments: Any, named: Any) -> Any:
+        """Signature of a call."""
+        if named or not isinstance(function, types.Function):
+            return self._context.resolve_function_type(function, arguments, named)
+        call = function, tuple(arguments)
+        if call not in self._known:
+            self._known[call] = self._context.resolve_function_type(function, arguments, named)
+        return self._known[call]
+
+
+@lru_cache(maxsize=4)
+def quick_typing(context: Any) -> QuickTyping:
+    """The same typing context, with what it knows of calls."""
+    return QuickTyping(context)
+
+
 class InnerCompiler(CompilerBase):
     """Compiler of an inner function."""
 
     def __init__(self, *arguments: Any):
         super().__init__(*arguments)
-        self.state.flags = QuickFlags(self.state.flags)
+        state = self.state
+        state.typingctx = quick_typing(state.typingctx)
+        state.args = QuickArguments(state.args)
+        state.flags = QuickFlags(state.flags)
 
     def define_pipelines(self) -> list[Any]:
         """Passes of numba's own, but for the needless ones."""

@@ -18,7 +18,7 @@ from saleg.files.signals import held_off
 
 log = logging.getLogger(__name__)
 #: What is logged before something is compiled that is not on disk.
-COMPILING = "compiling the equations for this choice of laws: once, some 20 s"
+COMPILING = "compiling the equations for this choice of laws: once, up to 20 s"
 
 
 class Kernel:

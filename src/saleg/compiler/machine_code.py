@@ -1,4 +1,6 @@
-"""What saleg knows of numba's inside: here, in ``run_at.py`` and in ``inner_functions.py`` only.
+"""What saleg knows of numba's inside.
+
+It stands here, in ``run_at.py``, ``inner_functions.py`` and ``linking.py`` only.
 
 Numba promises none of it. Each is a short cut with a longer way round, taken by itself where numba
 has changed:
@@ -10,6 +12,8 @@ has changed:
   is compiled into every kernel (:mod:`~saleg.compiler.search`);
 - inner functions without machine code of their own; else each has its own, in half as much time
   again (:mod:`~saleg.compiler.inner_functions`);
+- a kernel lowered without laws, and laws linked into it (:mod:`~saleg.compiler.linking`); else the
+  laws are written into the kernel's text, which is lowered anew for every choice of them;
 - the folder numba keeps machine code in, to be looked at before anything is loaded; else none is
   kept.
 """
@@ -17,7 +21,7 @@ has changed:
 from __future__ import annotations
 
 import pkgutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -34,13 +38,17 @@ ADDRESS_NEEDS = (
 
 #: What :mod:`~saleg.compiler.inner_functions` takes.
 INNER_NEEDS = (
+    "llvmlite.binding:Linkage.external",
+    "numba.core.codegen:JITCodeLibrary._get_module_for_linking",
+    "numba.core.codegen:JITCodeLibrary._raise_if_finalized",
     "numba.core.codegen:JITCodeLibrary._optimize_functions",
-    "numba.core.codegen:JITCodeLibrary._optimize_final_module",
     "numba.core.codegen:JITCodeLibrary._finalize_final_module",
     "numba.core.codegen:JITCodeLibrary._finalize_dynamic_globals",
     "numba.core.compiler:CompilerBase.define_pipelines",
     "numba.core.compiler:DefaultPassBuilder.define_nopython_pipeline",
     "numba.core.compiler:Flags.values",
+    "numba.core.types:Function",
+    "numba.core.typing.context:BaseContext.resolve_function_type",
     "numba.core.typed_passes:DumpParforDiagnostics",
     "numba.core.typed_passes:NopythonRewrites",
     "numba.core.untyped_passes:FindLiterallyCalls",
@@ -48,6 +56,22 @@ INNER_NEEDS = (
     "numba.core.untyped_passes:LiteralPropagationSubPipelinePass",
     "numba.core.untyped_passes:LiteralUnroll",
     "numba.core.untyped_passes:WithLifting",
+)
+
+#: What :mod:`~saleg.compiler.linking` takes beside.
+LINKING_NEEDS = (
+    *INNER_NEEDS,
+    *ADDRESS_NEEDS,
+    "numba.core.base:BaseContext.make_tuple",
+    "numba.core.base:BaseContext.push_code_library",
+    "numba.core.callconv:CPUCallConv._get_arg_packer",
+    "numba.core.callconv:CPUCallConv.return_status_propagate",
+    "numba.core.cgutils:get_or_insert_function",
+    "numba.core.codegen:JITCodeLibrary.add_ir_module",
+    "numba.core.codegen:JITCodeLibrary.add_llvm_module",
+    "numba.core.codegen:JITCodeLibrary.create_ir_module",
+    "numba.core.compiler_lock:global_compiler_lock",
+    "numba.core.types:NamedUniTuple",
 )
 
 #: Numba's types of some arguments.
@@ -75,6 +99,32 @@ def inner_compiler() -> Any:
     from saleg.compiler.inner_functions import InnerCompiler
 
     return InnerCompiler
+
+
+def has_halves() -> bool:
+    """Whether a kernel without laws can be lowered with this numba, and laws linked into it."""
+    return _all_exist(LINKING_NEEDS)
+
+
+def declared(slot: str, names: Mapping[str, Any]) -> Any:
+    """A slot of a kernel without laws."""
+    from saleg.compiler import linking
+
+    return linking.declared(slot, names)
+
+
+def linked(names: Mapping[str, Any], bitcode_for: Callable[[Any], bytes]) -> Any:
+    """The integrator made of a kernel without laws and those of a module."""
+    from saleg.compiler import linking
+
+    return linking.linked(names, bitcode_for)
+
+
+def lowered(kernel: Any, run: Any) -> bytes:
+    """A kernel without laws as LLVM's bitcode, for arguments of some type."""
+    from saleg.compiler import linking
+
+    return linking.lowered(kernel, run)
 
 
 def is_compiled(function: Any, types: Types) -> bool:

@@ -51,7 +51,7 @@ class Needs(NamedTuple):
         alternators = [law for law in classes if issubclass(law, Alternator)]
         has_rate = any(law.current_rate is not Alternator.current_rate for law in alternators)
         names = asked_for(classes)
-        chambers = names & layout.CHAMBER_STATES.keys()
+        chambers = names.intersection(layout.CHAMBER_STATES)
         return cls(motored_pressure, has_rate, chambers, "frame" in names)
 
     @property

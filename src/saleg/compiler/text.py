@@ -1,35 +1,24 @@
 """The text of a composed module: modules of the kernel as they stand, slots filled with laws.
 
-Written anew are only the slots (:mod:`saleg.kernel.slots` in plain Python), each as a function that
-calls the law of its side with the law's record, what the laws need (:mod:`~saleg.compiler.needs`),
-and the step of the adaptive pair (:mod:`~saleg.compiler.unrolled`).
+Written anew are only the slots (:mod:`~saleg.compiler.slot_text`), what the laws need
+(:mod:`~saleg.compiler.needs`), and the step of the adaptive pair (:mod:`~saleg.compiler.unrolled`).
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
-import inspect
 import pkgutil
-import threading
-from collections.abc import Callable, Sequence
-from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from collections.abc import Sequence
+from typing import Any
 
-from saleg.compiler.imported_text import NoSource
-from saleg.compiler.module import without_source
 from saleg.compiler.needs import Needs
-from saleg.compiler.records import OTHER_SLOTS
-from saleg.compiler.source import Borrowed, earlier_attributes
+from saleg.compiler.slot_text import declared_slots, slots_text
 from saleg.compiler.strength_reduction import EXPONENTIAL
+from saleg.compiler.syntax import one_at_a_time
 from saleg.compiler.unrolled import adaptive_step
 from saleg.errors import LawError
 from saleg.laws import Law
-from saleg.laws.base import CHAMBER_SLOTS
-from saleg.laws.contract import plain_function
-
-P = ParamSpec("P")
-T = TypeVar("T")
 
 #: What stands before the slots: the arguments laws are shown, then what of the kernel needs no law.
 BEFORE_SLOTS = (
@@ -41,6 +30,8 @@ BEFORE_SLOTS = (
     "kernel/state.py",
     "compiler/call_at.py",
 )
+#: What laws are shown.
+SHOWN = ("laws/arguments.py", "kernel/copies.py", "kernel/logarithms.py")
 #: Modules of the kernel that make up the integrator.
 INTEGRATOR = (
     "needs",
@@ -114,7 +105,6 @@ def any_of(condition):
 """
 #: What a module for several engines side by side takes in, its text known by its digest.
 LANES = """\
-# Numbers of lanes: {digest}
 from saleg.compiler.lanes import functions
 from saleg.compiler.lanes.storage import numbers_of, records_of, rows_of, tables_of
 from saleg.compiler.lanes.values import lane_bits
@@ -123,26 +113,21 @@ from saleg.laws.choice import any_of, where
 WIDTH = {width}
 """
 #: Files of that text, and those that step such engines.
-NUMBERS_OF_LANES = ("values", "functions", "storage")
+NUMBERS_OF_LANES = tuple(f"compiler/lanes/{name}.py" for name in ("values", "functions", "storage"))
+#: Files that say how laws are linked into a kernel without any.
+HALVES = ("compiler/linking.py", "kernel/slots.py")
 STEPS_OF_LANES = ("compiler/run_at.py", "kernel/lanes/group.py", "compiler/lanes/advance.py")
+#: The integrator of laws that are linked into a kernel without any.
+LINKED = """\
+integrate = LINKED(globals())
+
+
+@cached
+def run_on(run):
+    return integrate(run)
+"""
 #: What a module is loaded with says whether it is kept.
 CACHED = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)\n'
-
-
-#: Held by whoever reads or writes syntax trees: Python 3.11 counts how deep it is in them for all
-#: threads together, and fails with "AST constructor recursion depth mismatch".
-SYNTAX = threading.RLock()
-
-
-def one_at_a_time(function: Callable[P, T]) -> Callable[P, T]:
-    """Make threads that call a function wait for each other."""
-
-    @wraps(function)
-    def call(*args: P.args, **given: P.kwargs) -> T:
-        with SYNTAX:
-            return function(*args, **given)
-
-    return call
 
 
 @one_at_a_time
@@ -177,15 +162,9 @@ def compose(
     LawError
         If a law cannot be compiled.
     """
-    n = len(CHAMBER_SLOTS)
-    left, right, rest = classes[:n], classes[n : 2 * n], classes[2 * n :]
     choice = CHOICE if width == 1 else _lanes(width)
     parts = [*_header(), choice, *map(own_text, BEFORE_SLOTS)]
-    eases = "rhs" in modules
-    for index, (name, base) in enumerate(CHAMBER_SLOTS.items()):
-        parts += _chamber_slot(name, base, left[index], right[index], injected, eases)
-    for (name, base), law in zip(OTHER_SLOTS.items(), rest, strict=True):
-        parts += _engine_slot(name, base, law, injected)
+    parts += slots_text(classes, injected, "rhs" in modules)
     needs = Needs.of(classes, motored_pressure)
     parts += [_kernel_text(name, needs, width) for name in modules]
     if width > 1:
@@ -193,10 +172,40 @@ def compose(
     return _joined(parts)
 
 
+@one_at_a_time
+def compose_kernel(needs: Needs) -> str:
+    """Text of the integrator without laws: its slots are declared."""
+    parts = [*_header("cached = inline\n"), _digest(HALVES), CHOICE]
+    parts += [*map(own_text, BEFORE_SLOTS), declared_slots()]
+    return _joined([*parts, *(_kernel_text(name, needs, 1) for name in INTEGRATOR)])
+
+
+@one_at_a_time
+def compose_laws(
+    classes: Sequence[type[Law]], kernel: str, injected: dict[str, Any] | None = None
+) -> str:
+    """Text of laws, and of the integrator they make with a kernel without laws.
+
+    Parameters
+    ----------
+    classes, injected
+        See :func:`compose`.
+    kernel : str
+        Digest of the kernel's text.
+    """
+    parts = [*_header(), f"# kernel: {kernel}", CHOICE, *map(own_text, SHOWN)]
+    return _joined([*parts, *slots_text(classes, injected, eases=True), LINKED])
+
+
 def _lanes(width: int) -> str:
     """What a module for several engines side by side begins with."""
-    texts = "".join(own_text(f"compiler/lanes/{name}.py") for name in NUMBERS_OF_LANES)
-    return LANES.format(digest=hashlib.sha256(texts.encode()).hexdigest(), width=width)
+    return _digest(NUMBERS_OF_LANES) + LANES.format(width=width)
+
+
+def _digest(files: Sequence[str]) -> str:
+    """Comment that tells texts apart by files that are not in them."""
+    texts = "".join(map(own_text, files))
+    return f"# {', '.join(files)}: {hashlib.sha256(texts.encode()).hexdigest()}\n"
 
 
 def _kernel_text(name: str, needs: Needs, width: int) -> str:
@@ -217,11 +226,11 @@ def compose_search() -> str:
     return _joined([*_header(), *map(own_text, SEARCH)])
 
 
-def _header() -> list[str]:
-    """What every composed module begins with."""
+def _header(cached: str = CACHED) -> list[str]:
+    """What every composed module begins with; `cached` says what an entry point is."""
     parts = ["import math", "import numba", "import numpy as np", ""]
     parts += [f"from math import exp as {EXPONENTIAL}"]
-    return [*parts, COMPILED_HEADER + CACHED]
+    return [*parts, COMPILED_HEADER + cached]
 
 
 def _joined(parts: Sequence[str]) -> str:
@@ -229,100 +238,6 @@ def _joined(parts: Sequence[str]) -> str:
     text = "\n".join(parts) + "\n"
     _check_names(text)
     return text
-
-
-def _engine_slot(
-    name: str, base: type[Law], law: type[Law], injected: dict[str, Any] | None
-) -> list[str]:
-    """Functions of one slot of the engine as a whole."""
-    parts = []
-    for method in base.compiled:
-        parts += methods_text(law, method, f"engine_{name}", base, injected)
-        arguments = ", ".join(_arguments(base, method))
-        parts.append(
-            f"@inline\ndef {name}_{method}(P, {arguments}):\n"
-            f"    return engine_{name}_{method}(P.{name}, {arguments})\n"
-        )
-    return parts
-
-
-def _chamber_slot(
-    name: str,
-    base: type[Law],
-    left: type[Law],
-    right: type[Law],
-    injected: dict[str, Any] | None,
-    eases: bool,
-) -> list[str]:
-    """Functions of one chamber slot; one set serves both sides where their laws are alike."""
-    parts = []
-    both = left is right
-    names = ("both", "both") if both else ("left", "right")
-    for method in base.compiled:
-        easy = eases and method in base.at_every_step
-        for place, law in (("both", left),) if both else (("left", left), ("right", right)):
-            parts += methods_text(law, method, f"{place}_{name}", base, injected, easy)
-        arguments = ", ".join(_arguments(base, method))
-        if easy:
-            parts.append(_by_side(f"{name}_{method}", name, f"{arguments}, aid", names))
-            parts.append(_by_side(f"{name}_{method}_constants", name, arguments, names))
-        else:
-            parts.append(_by_side(f"{name}_{method}", name, arguments, names))
-    return parts
-
-
-def _by_side(function: str, slot: str, arguments: str, names: tuple[str, str]) -> str:
-    """Text of a function that calls the law of the side it is asked for."""
-    return (
-        f"@inline\ndef {function}(P, side, {arguments}):\n"
-        f"    if side == 0:\n"
-        f"        return {names[0]}_{function}(P.left.{slot}, {arguments})\n"
-        f"    return {names[1]}_{function}(P.right.{slot}, {arguments})\n"
-    )
-
-
-#: What stands for the eased form of a method without source.
-NOT_EASED = """\
-@inline
-def {name}(self, gas, charge, aid):
-    return {name}__plain(self, gas, charge)
-@inline
-def {name}_constants(self, gas, charge):
-    return 0.0, 0.0, 0.0
-"""
-
-
-@one_at_a_time
-def methods_text(
-    law: type[Law],
-    method: str,
-    prefix: str,
-    base: type[Law],
-    injected: dict[str, Any] | None = None,
-    eases: bool = False,
-) -> list[str]:
-    """Definitions needed for one method of a law, as a function ``{prefix}_{method}``."""
-    owner = f"{law.__name__}.{method}"
-    function = plain_function(getattr(law, method), owner)
-    wanted = _arguments(base, method)
-    if function.__code__.co_argcount != len(wanted) + 1:
-        raise LawError(f"{owner} must take ({', '.join(['self', *wanted])})")
-    borrowed = Borrowed(f"{prefix}_{method}__", owner, getattr(base, method))
-    add = borrowed.add_eased_method if eases else borrowed.add_method
-    try:
-        add(law, function, f"{prefix}_{method}")
-    except NoSource:
-        if injected is None:
-            raise
-        injected[f"{prefix}_{method}{'__plain' if eases else ''}"] = without_source(
-            function, earlier_attributes(law)
-        )
-        return [NOT_EASED.format(name=f"{prefix}_{method}")] if eases else []
-    return borrowed.definitions
-
-
-def _arguments(base: type[Law], method: str) -> list[str]:
-    return list(inspect.signature(getattr(base, method)).parameters)[1:]
 
 
 @one_at_a_time

@@ -15,18 +15,22 @@ from saleg.control.following import (
     demand_by_fuel,
     demand_by_intake,
     demand_by_load,
+    demand_by_map,
     follow_demand,
 )
 from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
 from saleg.control.moments import (
     BusEnergy,
+    StepResponse,
     bus_energy,
     first_misfire,
     fuel_cuts,
     late_ignitions,
     motored_times,
     ports_opened_at,
+    step_response,
 )
+from saleg.control.part_load import PartLoadMap, part_load_map
 from saleg.control.plant import Plant
 from saleg.control.plants import Plants
 from saleg.control.running import (
@@ -43,13 +47,16 @@ __all__ = [
     "BusEnergy",
     "Demand",
     "OperatingMap",
+    "PartLoadMap",
     "Plant",
     "Plants",
     "Sensors",
+    "StepResponse",
     "bus_energy",
     "demand_by_fuel",
     "demand_by_intake",
     "demand_by_load",
+    "demand_by_map",
     "fired_at",
     "first_misfire",
     "follow_demand",
@@ -68,10 +75,12 @@ __all__ = [
     "operating_grid",
     "operating_map",
     "overload",
+    "part_load_map",
     "ports_opened_at",
     "rapid_start",
     "recovery_time",
     "simulate",
     "simulate_many",
     "start_up",
+    "step_response",
 ]

@@ -9,11 +9,14 @@ from saleg.checks import NUMBER, POSITIVE, a, checked
 from saleg.control.demand import Demand
 from saleg.control.experiments import RAPID, rapid_start, start_up
 from saleg.control.maps import OperatingMap, fuel_map, intake_map
+from saleg.control.part_load import PartLoadMap
 from saleg.engine import Engine
+from saleg.errors import InvalidController
 from saleg.laws.control.base import FuelControl, IntakeControl, LoadControl
-from saleg.laws.control.fuel import FuelOnDemand
-from saleg.laws.control.intake import HeatedIntake
+from saleg.laws.control.fuel import FuelOnDemand, MappedFuel
+from saleg.laws.control.intake import HeatedIntake, MappedIntake
 from saleg.laws.control.load import PowerDemand
+from saleg.quantities import Problem
 from saleg.simulation.run import Run
 from saleg.steady.solver import steady_state
 
@@ -173,6 +176,62 @@ def demand_by_fuel(
     """
     law = _on_map(FuelOnDemand, known or fuel_map(engine), demand, gain)
     return follow_demand(engine, fuel_control=law, **settings)
+
+
+@checked(engine=a(Engine), demand=a(Demand), known=a(PartLoadMap), gain=NUMBER, lag=NUMBER)
+def demand_by_map(
+    engine: Engine,
+    demand: Demand,
+    known: PartLoadMap,
+    *,
+    gain: float = 0.3,
+    lag: float = 0.05,
+    **settings: Any,
+) -> Run:
+    """Start an engine up and let fuel and intake temperature follow a demand on one map.
+
+    Parameters
+    ----------
+    engine : Engine
+    demand : Demand
+        Power over time.
+    known : PartLoadMap
+        Over equivalence ratio, intake temperature or both; what it does not vary stays rated.
+    gain, lag : float
+        Of :class:`saleg.laws.MappedFuel` [1/s, s].
+    **settings
+        Duration and further settings of :func:`follow_demand`.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    InvalidController
+        If the map varies what a controller does not command.
+    """
+    commanded = ("equivalence_ratio", "intake.temperature")
+    for path in known.paths:
+        if path not in commanded:
+            allowed = f"a controller commands {' and '.join(commanded)} alone"
+            raise InvalidController([Problem("known", path, "", allowed)])
+    wanted: dict[str, Any] = {
+        "times": demand.times,
+        "demands": demand.powers,
+        "powers": known.column("power"),
+    }
+    laws: dict[str, Any] = {}
+    if "equivalence_ratio" in known.paths:
+        ratios = known.column("equivalence_ratio")
+        wanted_fuel = wanted | {"lowest": min(ratios), "highest": max(ratios)}
+        laws["fuel_control"] = MappedFuel(
+            gain=gain, lag=lag, equivalence_ratios=ratios, **wanted_fuel
+        )
+    if "intake.temperature" in known.paths:
+        temperatures = known.column("intake.temperature")
+        laws["intake_control"] = MappedIntake(temperatures=temperatures, **wanted)
+    return follow_demand(engine, **laws, **settings)
 
 
 def _on_map(kind: Callable[..., Law], known: OperatingMap, demand: Demand, gain: float) -> Law:

@@ -7,9 +7,27 @@ from typing import NamedTuple
 
 import numpy as np
 
-from saleg.checks import a, checked
+from saleg.checks import POSITIVE, a, checked
+from saleg.control.demand import Demand
 from saleg.kernel import layout
 from saleg.simulation.run import Run
+
+
+class StepResponse(NamedTuple):
+    """Answer to a step in demand.
+
+    Attributes
+    ----------
+    settling_time : float
+        From the step to the dead centre from which on the power stays within the band [s];
+        infinite if it leaves it at last.
+    overshoot : float
+        How far it goes beyond the new demand, over the height of the step [-].
+    """
+
+    settling_time: float
+    overshoot: float
+
 
 #: Kinds of events after which a charge is a new one.
 NEW_CHARGE = (layout.EVENT_PORT_CLOSING, layout.EVENT_CHARGE_RENEWAL)
@@ -129,6 +147,36 @@ def late_ignitions(run: Run) -> np.ndarray:
         elif kind == layout.EVENT_IGNITION and missed[int(side)]:
             found.append(float(t))
     return np.array(found)
+
+
+@checked(run=a(Run), demand=a(Demand), band=POSITIVE)
+def step_response(run: Run, demand: Demand, band: float = 0.05) -> StepResponse:
+    """How the power of a run answers a step in demand.
+
+    Parameters
+    ----------
+    run : Run
+    demand : Demand
+        Whose last change is a step.
+    band : float
+        Half width of the band around the last demand in which power has settled, over the height of
+        the step [-].
+
+    Returns
+    -------
+    StepResponse
+    """
+    at, before, last = demand.times[-1], demand.powers[-2], demand.powers[-1]
+    after = run.dead_centres[run.dead_centres.t > at]
+    # 0 before the step, 1 where it is met.
+    answer = (after.power.to_numpy() - before) / (last - before)
+    outside = np.flatnonzero(np.abs(answer - 1.0) > band)
+    times = after.t.to_numpy()
+    settled = len(answer) > 0 and (len(outside) == 0 or outside[-1] + 1 < len(times))
+    first = outside[-1] + 1 if len(outside) else 0
+    settling_time = float(times[first] - at) if settled else math.inf
+    overshoot = max(float(answer.max()) - 1.0, 0.0) if len(answer) else math.nan
+    return StepResponse(settling_time, overshoot)
 
 
 class BusEnergy(NamedTuple):

@@ -30,6 +30,11 @@ def write_text(path: Path, text: str, mode: int = 0o666) -> None:
     OSError
         If it cannot be written; an earlier file then stays as it was.
     """
+    write_bytes(path, text.encode(), mode)
+
+
+def write_bytes(path: Path, data: bytes, mode: int = 0o666) -> None:
+    """Write a file of bytes in the same way."""
 
     def opened(name: str, flags: int) -> int:
         return os.open(name, flags, mode)
@@ -37,8 +42,8 @@ def write_text(path: Path, text: str, mode: int = 0o666) -> None:
     temporary = _beside(path)
     with ending_in_order():
         try:
-            with open(temporary, "x", encoding="utf-8", newline="\n", opener=opened) as file:
-                file.write(text)
+            with open(temporary, "xb", opener=opened) as file:
+                file.write(data)
             os.replace(temporary, path)
         except BaseException:
             temporary.unlink(missing_ok=True)

@@ -25,6 +25,7 @@ from saleg.kernel.layout import (
     CORNER,
     CRANKCASE_MASS,
     CRANKCASE_WORK,
+    CURRENT,
     DEAD_CENTRE,
     DISARMED,
     ELECTRICAL_ENERGY,
@@ -347,7 +348,7 @@ def write_stroke(P, E, C, y, peaks, row):
     row.speed_squared = y[N_STATE + SPEED_SQUARED]
     row.peak_acceleration = peaks[PEAK_ACCELERATION]
     row.peak_velocity = peaks[PEAK_VELOCITY]
-    row.spring_energy = springs_energy(P, Motion(E.t, y[X], y[V], E.direction))
+    row.spring_energy = springs_energy(P, Motion(E.t, y[X], y[V], E.direction, y[CURRENT]))
     row.spring_energy -= E.back_force * y[X]
     if FRAME_IS_WANTED:
         v = y[FRAME_V]

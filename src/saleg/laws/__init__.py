@@ -54,8 +54,8 @@ from saleg.laws.control.base import (
 )
 from saleg.laws.control.converter import Converter
 from saleg.laws.control.force import PushAlong, tracked_velocity
-from saleg.laws.control.fuel import FuelCut, FuelOnDemand, NoFuel, RatedFuel
-from saleg.laws.control.intake import HeatedIntake, RatedIntake
+from saleg.laws.control.fuel import FuelCut, FuelOnDemand, MappedFuel, NoFuel, RatedFuel
+from saleg.laws.control.intake import HeatedIntake, MappedIntake, RatedIntake
 from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad, StrokeRegulator
 from saleg.laws.control.motor import PhaseLockedMotor, ResonanceSearch, SteadyMotor
 from saleg.laws.control.position_sensor import PositionSensor
@@ -170,6 +170,8 @@ __all__ = [
     "LoadControl",
     "LumpedWall",
     "MakeUpValve",
+    "MappedFuel",
+    "MappedIntake",
     "Misfires",
     "MixtureGas",
     "Motion",

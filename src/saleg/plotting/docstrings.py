@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 from saleg.checks import FRAME, a, checked
-from saleg.control import OperatingMap
+from saleg.control import OperatingMap, PartLoadMap
 from saleg.design import Geometry
 from saleg.fundamental import History
 from saleg.simulation.run import Run
@@ -42,6 +42,7 @@ SUBJECTS = {
     "history": a(History),
     "table": FRAME,
     "known": a(OperatingMap),
+    "best": a(PartLoadMap),
     "branch": a(Branch),
     "geometry": a(Geometry),
 }

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import partial, reduce
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -253,76 +252,6 @@ FIGURES: dict[str, Figure] = {
     item.name: item.metadata["figure"] for item in dataclasses.fields(Performance)
 }
 UNITS = {name: figure.unit for name, figure in FIGURES.items()}
-
-
-#: Limits of what is plausible: a choice of ours without a source, well beyond every printed design
-#: (Tables 9 to 12: 237 bar, a compression ratio of 30, a mean piston speed of some 17 m/s).
-MAX_PRESSURE = 400e5
-MAX_COMPRESSION_RATIO = 80.0
-MAX_PISTON_SPEED = 30.0
-
-
-def remarks_on(engine: Engine, performance: Performance, strokes: np.ndarray) -> list[str]:
-    """Figures that no engine built comes near, as text.
-
-    Parameters
-    ----------
-    engine : Engine
-    performance : Performance
-    strokes : ndarray of STROKE_RECORD
-        The cycle, empty where it is not known.
-
-    Returns
-    -------
-    list of str
-        Empty for most engines, and where the figures are not known.
-    """
-    return [
-        text(value)
-        for beyond, value, text in _remarks(engine, vars(performance), strokes)
-        if beyond
-    ]
-
-
-def is_remarkable(engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray) -> Any:
-    """Whether there is a remark on each of many cycles; as :func:`cycle_figures` has them."""
-    return np.any([beyond for beyond, _, _ in _remarks(engine, figures, strokes)], axis=0)
-
-
-def _remarks(
-    engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray
-) -> Iterator[tuple[Any, Any, Callable[[Any], str]]]:
-    """Whether a figure is beyond its limit, the figure, and what says so."""
-    pressures = {"": figures["peak_pressure"]}
-    for side, chamber in enumerate(engine.chambers):
-        if engine.has_combustion and not isinstance(chamber, CombustionChamber):
-            peaks = strokes["peak_pressure"][..., side]
-            pressures[" in the bounce chamber"] = peaks.max(axis=-1, initial=0.0)
-    for where, pressure in pressures.items():
-        yield pressure > MAX_PRESSURE, pressure, partial(_of_pressure, where)
-    ratio = figures["compression_ratio"]
-    yield ratio > MAX_COMPRESSION_RATIO, ratio, _of_ratio
-    speed = 2.0 * figures["stroke"] * figures["frequency"]
-    yield speed > MAX_PISTON_SPEED, speed, _of_speed
-    cycle = summed(strokes)
-    released, gained = both(cycle["heat_released"]), -both(cycle["heat_lost"])
-    yield (gained > released) & (released > 0.0), gained, _of_walls
-
-
-def _of_pressure(where: str, pressure: float) -> str:
-    return f"peak pressure{where} {pressure / 1e5:.4g} bar (> {MAX_PRESSURE / 1e5:g})"
-
-
-def _of_ratio(ratio: float) -> str:
-    return f"compression ratio {ratio:.4g} (> {MAX_COMPRESSION_RATIO:g})"
-
-
-def _of_speed(speed: float) -> str:
-    return f"mean piston speed {speed:.4g} m/s (> {MAX_PISTON_SPEED:g})"
-
-
-def _of_walls(gained: float) -> str:
-    return "more heat from the walls than from the fuel: the efficiency counts fuel only"
 
 
 @dataclass(frozen=True)

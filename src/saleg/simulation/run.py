@@ -13,10 +13,12 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.kernel.layout import EVENT_NAMES
 from saleg.simulation.net_output import Auxiliaries, NetOutput, net_output_of
-from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
+from saleg.simulation.performance import EnergyBalance, Performance
+from saleg.simulation.plausibility import remarks_on
 from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.shaking import Shaking, shaking_of
 from saleg.simulation.tables import cycle_table, dead_centre_table, event_table, history_table
+from saleg.simulation.validity import ValidityReport, validity_of
 from saleg.status import Status
 
 if TYPE_CHECKING:
@@ -150,6 +152,12 @@ class Run:
         start = last_cycle_start(self.strokes)
         cycle = self.strokes[:0] if start is None else self.strokes[start : start + 2]
         return remarks_on(self.engine, self.performance, cycle)
+
+    @property
+    def validity(self) -> ValidityReport:
+        """Laws outside their ranges, implausible figures, and what a published machine supports."""
+        cycle = self.strokes[:0] if self.last_cycle_strokes is None else self.last_cycle_strokes
+        return validity_of(self.engine, self.performance, cycle, self.range_exits)
 
     @cached_property
     def performance(self) -> Performance:

@@ -34,11 +34,13 @@ from saleg.simulation.outcome import (
     is_dead,
     is_idling,
 )
-from saleg.simulation.performance import EnergyBalance, Performance, remarks_on
+from saleg.simulation.performance import EnergyBalance, Performance
+from saleg.simulation.plausibility import remarks_on
 from saleg.simulation.run import Run, read_only
 from saleg.simulation.scavenging import Scavenging, scavenging_of
 from saleg.simulation.settings import Detail, Settings, SettingsError
 from saleg.simulation.shaking import Shaking, shaking_of
+from saleg.simulation.validity import ValidityReport, validity_of
 from saleg.status import Status
 from saleg.steady.earlier_names import renamed_keywords
 from saleg.steady.return_map import (
@@ -227,6 +229,12 @@ class SteadyState:
     def remarks(self) -> list[str]:
         """Figures of the cycle that no engine built comes near, as text; often none."""
         return remarks_on(self.engine, self.quick_performance, self.strokes)
+
+    @property
+    def validity(self) -> ValidityReport:
+        """Laws outside their ranges, implausible figures, and what a published machine supports."""
+        exits = [] if self.orbit is None else self.orbit.range_exits
+        return validity_of(self.engine, self.quick_performance, self.strokes, exits)
 
     @property
     def moving_mass(self) -> float:

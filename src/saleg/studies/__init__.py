@@ -20,6 +20,13 @@ from saleg.studies.convergence import (
 )
 from saleg.studies.elasticities import MAIN_FIGURES, elasticities
 from saleg.studies.printed import beside_thesis
+from saleg.studies.published_machines import (
+    Cause,
+    Compared,
+    Explanation,
+    compare_published,
+    explain_published,
+)
 from saleg.studies.variability import VARIABILITY_UNITS, variability
 
 __all__ = [
@@ -31,12 +38,17 @@ __all__ = [
     "UNITS",
     "VARIABILITY_UNITS",
     "WARM_UP",
+    "Cause",
+    "Compared",
+    "Explanation",
     "StudyError",
     "beside_thesis",
     "compare",
+    "compare_published",
     "delay_study",
     "delayed",
     "elasticities",
+    "explain_published",
     "sensitivity",
     "solver_study",
     "step_size_study",

@@ -70,3 +70,34 @@ class HeatedIntake(IntakeControl):
             memory[0] += self.gain * (signals.compression_ratio - target) * elapsed
             memory[0] = min(max(memory[0], self.lowest - rated), self.highest - rated)
         return rated + memory[0]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MappedIntake(IntakeControl):
+    """Intake temperature from a map over the power demanded, clipped at the ends of the map.
+
+    Parameters
+    ----------
+    powers : tuple of float
+        Powers of the map, rising [W].
+    temperatures : tuple of float
+        Intake temperatures that go with them [K].
+    times, demands : tuple of float
+        Power demanded [W] over time [s], as for :class:`saleg.laws.PowerDemand`.
+    """
+
+    powers: tuple[float, ...] = series(
+        "W", default=(1800.0, 3800.0), low=0, rising=True, usual=POWER
+    )
+    temperatures: tuple[float, ...] = series(
+        "K", default=(263.0, 263.0), low=100.0, length="powers", usual=COMMANDED_TEMPERATURE
+    )
+    times: tuple[float, ...] = series("s", default=(2.0, 2.0), never_falling=True, usual=TIME)
+    demands: tuple[float, ...] = series(
+        "W", default=(3800.0, 1800.0), low=0, length="times", usual=POWER
+    )
+
+    def temperature(self, memory: Any, signals: Signals) -> float:
+        """Intake temperature [K]."""
+        demand = at_time(signals.t, self.times, self.demands)
+        return linear(demand, self.powers, self.temperatures)

@@ -5,6 +5,7 @@ from saleg.plotting.control.tables import (
     motored_resonance,
     operating_grid,
     operating_map,
+    part_load,
     survival,
 )
 from saleg.plotting.control.timelines import (
@@ -25,6 +26,7 @@ __all__ = [
     "motored_resonance",
     "operating_grid",
     "operating_map",
+    "part_load",
     "start_up",
     "start_ups",
     "survival",

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from saleg.control.maps import OperatingMap
 from saleg.control.moments import stretches
+from saleg.control.part_load import PartLoadMap
 from saleg.plotting.docstrings import documented
 from saleg.plotting.kinds import NO_FIGURES, STABLE, draw_kind, kinds
 from saleg.plotting.labels import label as label_of
@@ -100,6 +101,38 @@ def operating_map(
     panels[0].set_title("Steady operation", fontsize="medium")
     legend_below(panels)
     return panels
+
+
+@documented()
+def part_load(
+    best: PartLoadMap, ax: Axes | None = None, *, others: Mapping[str, pd.DataFrame] | None = None
+) -> ShownAxes:
+    """Draw the efficiency [%] of a part-load map over power [kW], beside what it was chosen from.
+
+    Parameters
+    ----------
+    best : PartLoadMap
+    others : mapping of str to DataFrame, optional
+        Tables of other maps by name, such as that of :func:`saleg.control.intake_map`.
+    """
+    ax = axes_or_new(ax)
+    states = best.states[best.states.within]
+    look: dict[str, Any] = {"color": "0.75", "marker": ".", "markersize": 4, "linestyle": "none"}
+    x, y = "power", "efficiency"
+    ax.plot(values(states, x), values(states, y), label="within the margins", **look)
+    for colour, (name, table) in zip(
+        (RIGHT_COLOUR, LEFT_COLOUR, "0.4"), (others or {}).items(), strict=False
+    ):
+        rows = {kind.label: rows for kind, rows in kinds(table)}[STABLE.label]
+        look = {"color": colour, "linestyle": "--", "linewidth": 1.4}
+        ax.plot(values(table, x)[rows], values(table, y)[rows], label=name, **look)
+    look = {"color": TRANSLATOR_COLOUR, "linewidth": 1.6}
+    ax.plot(values(best.table, x), values(best.table, y), label="best", **look)
+    ax.set_xlim(left=0.0)
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel(label_of(best.table, x))
+    ax.set_ylabel(label_of(best.table, y))
+    return finish(ax, "Part load", "lower right")
 
 
 @documented(axes=2)
