@@ -1,9 +1,10 @@
 """Control within the stroke: start-up by a push along the motion: cold, after a stall, by 110 N.
 
-Run with ``python examples/18_control_in_time.py``.
+Run with ``python examples/18_control_in_time.py``; it draws nothing.
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import saleg
 from saleg import Controller, control
@@ -47,7 +48,7 @@ def small_dual_engine(friction: float) -> saleg.Engine:
     )
 
 
-def main() -> None:
+def main(folder: Path) -> None:
     engine = saleg.machines.thesis_transient().replace(start=AtRest())
     controller = Controller(force_control=PUSH, position_sensor=SENSOR)
 
@@ -99,4 +100,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    main(Path())
