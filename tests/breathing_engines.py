@@ -5,6 +5,15 @@ import dataclasses
 import saleg
 from saleg import laws
 
+PORTS = laws.PortFlow(
+    exhaust_width=0.1,
+    exhaust_height=0.04,
+    intake_width=0.12,
+    intake_height=0.03,
+    intake_delay=0.01,
+    displacement=0.6,
+)
+
 
 def single_piston(base, ports):
     """Cylinder with crankcase, leaking rings and a wall that follows; a leaking gas spring."""

@@ -7,21 +7,14 @@ import pytest
 
 import saleg
 from agreement import assert_agree
-from breathing_engines import single_piston
-from saleg import laws
+from breathing_engines import PORTS, single_piston
+from saleg import Effort, laws
+from saleg.engine.columns import rows_by_make
 from saleg.kernel import layout
 from saleg.simulation.initial_state import prepare
 from saleg.status import Status
+from saleg.steady.many import steady_rows
 from saleg.steady.return_map import ReturnMap
-
-PORTS = laws.PortFlow(
-    exhaust_width=0.1,
-    exhaust_height=0.04,
-    intake_width=0.12,
-    intake_height=0.03,
-    intake_delay=0.01,
-    displacement=0.6,
-)
 
 
 @pytest.fixture(scope="module")
@@ -256,3 +249,19 @@ def test_histories_have_masses_and_walls(crankcase):
     total = np.trapezoid(warming, seen["t"])
     change = seen["wall_temperature_left"].iloc[-1] - seen["wall_temperature_left"].iloc[0]
     assert total == pytest.approx(change, rel=1e-3)
+
+
+def test_engines_searched_for_together_have_the_steady_states_they_have_alone(breathing):
+    engines = [breathing.replace(equivalence_ratio=0.4 + 0.01 * n) for n in range(8)]
+    table = saleg.steady_states(engines, rtol=1e-9)
+    for n in (0, 7):
+        alone = saleg.steady_state(engines[n], rtol=1e-9)
+        for name in ("power", "stroke", "frequency", "peak_pressure", "charge_mass"):
+            wanted = getattr(alone.performance, name)
+            assert abs(table[name][n] / wanted - 1.0) < 1e-7, name
+    assert table.half_cycles.sum() < 8 * alone.half_cycles  # they follow each other
+
+
+def test_walls_that_follow_are_searched_for_one_by_one(crankcase):
+    (rows,) = rows_by_make([crankcase, crankcase.replace(moving_mass=2.5)])
+    assert steady_rows(rows, 1e-6, Effort.THOROUGH, 2) == []

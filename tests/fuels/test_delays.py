@@ -1,5 +1,8 @@
 """Ignition delays from chemistry, and Livengood-Wu's integral over them."""
 
+import dataclasses
+import math
+
 import numpy as np
 import pytest
 
@@ -33,6 +36,35 @@ def test_table_over_burnt_gas_is_interpolated():
         ((2e6, 0.75, 0.2), 2.0 * 2.0**0.5 * 1e-3),
     ):
         assert rate_of(law, p, 1000.0, ratio, burnt) == pytest.approx(1.0 / delay, rel=1e-12)
+
+
+def test_table_follows_a_curved_formula_without_corners():
+    """Between points and at them the slope over the temperature is that of the formula."""
+
+    def delay(p, T):
+        return 1e-6 * math.exp(6e3 / T + 6e6 / T**2) * (p / 1e6) ** -0.9
+
+    pressures = tuple(np.geomspace(5e5, 1e7, 9))
+    temperatures = tuple(1.0 / np.linspace(1 / 750.0, 1 / 1500.0, 17))
+    grid = tuple(delay(p, T) for p in pressures for T in temperatures)
+    law = laws.TabulatedDelay(pressures, temperatures, (0.6,), grid)
+    for p in (7e5, 3.3e6):
+        for T in np.linspace(820.0, 1400.0, 30):
+            assert rate_of(law, p, T, 0.6, 0.0) * delay(p, T) == pytest.approx(1.0, abs=2e-3)
+        for T in temperatures[2:-2]:
+            below, here, above = (math.log(rate_of(law, p, t, 0.6, 0.0)) for t in (T - 1, T, T + 1))
+            slope = 6e3 / T**2 + 12e6 / T**3
+            assert here - below == pytest.approx(slope, rel=6e-3)
+            assert above - here == pytest.approx(slope, rel=6e-3)
+
+
+def test_a_law_may_hold_numbers_that_follow_from_its_own(base):
+    law = laws.TabulatedDelay()
+    assert law.ln_delays == tuple(math.log(delay) for delay in law.delays)
+    assert law == laws.TabulatedDelay()
+    again = dataclasses.replace(law, delays=(0.2, 1e-4, 0.01, 1e-5))
+    assert again.ln_delays[0] == math.log(0.2)
+    assert "ln_delays" not in base.replace(ignition=law).to_toml()
 
 
 @pytest.mark.parametrize("fuel", [fuels.methane, fuels.propane, fuels.hydrogen], ids=str)

@@ -6,34 +6,11 @@ import numpy as np
 import pytest
 
 import saleg
+from fuel_cases import BLENDS, FUELS, SPECIES, cantera_gas
 from saleg import fuels, laws
-from saleg.fuels import FuelError, RealFuel, mixtures
+from saleg.fuels import FuelError, mixtures
 from saleg.fuels.species import all_species
 
-FUELS = [getattr(fuels, name) for name in fuels.__all__]
-FUELS = [fuel for fuel in FUELS if isinstance(fuel, RealFuel)]
-BLENDS = [
-    fuels.blend({"methane": 0.8, "hydrogen": 0.2}),
-    fuels.blend({"iso-octane": 87.0, "n-heptane": 13.0}, by_mass=True, name="petrol"),
-    fuels.blend({"ammonia": 0.7, "dimethyl ether": 0.3}),
-]
-#: What NASA TM-4513 calls the species of ours.
-SPECIES = {
-    "methane": "CH4",
-    "propane": "C3H8",
-    "hydrogen": "H2",
-    "ammonia": "NH3",
-    "dimethyl ether": "CH3OCH3",
-    "methanol": "CH3OH",
-    "ethanol": "C2H5OH",
-    "iso-octane": "C8H18,isooctane",
-    "n-heptane": "C7H16,n-heptane",
-    "toluene": "C7H8",
-    "oxygen": "O2",
-    "nitrogen": "N2",
-    "carbon dioxide": "CO2",
-    "water": "H2O",
-}
 #: Lower heating value [MJ/kg] and stoichiometric air-fuel ratio from tables of fuels.
 KNOWN = {
     "methane": (50.03, 17.12),
@@ -90,19 +67,6 @@ def test_energy_is_the_integral_of_the_heat_capacity(fuel):
     assert gas.internal_energy(298.15) == 0.0
     below, above = gas.internal_energy(1000.0), gas.internal_energy(math.nextafter(1000.0, 2e3))
     assert above == pytest.approx(below, rel=1e-12)
-
-
-def cantera_gas(moles):
-    """The same gas by Cantera."""
-    cantera = pytest.importorskip("cantera", reason="needs the extra 'chemistry'")
-    wanted = [
-        species
-        for species in cantera.Species.list_from_file("nasa_gas.yaml")
-        if species.name in SPECIES.values()
-    ]
-    gas = cantera.Solution(thermo="ideal-gas", species=wanted)
-    gas.X = {SPECIES[name]: amount for name, amount in moles.items()}
-    return cantera, gas
 
 
 @pytest.mark.parametrize("fuel", [*FUELS, *BLENDS], ids=lambda fuel: fuel.name)

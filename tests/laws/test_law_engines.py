@@ -16,6 +16,7 @@ ENGINES = {
         **{
             "heat_transfer": laws.Woschni(),
             "heat_release": laws.DoubleWiebe(premixed_end=0.4, diffusion_start=0.0),
+            "left.ignition": laws.SparkBeforeDeadCentre(1.2e-3),
             "right.ignition": laws.SparkAtClearance(0.016),
             "alternator": laws.CircuitAlternator(),
             "springs": laws.ProgressiveSprings((0.0, 0.05, 0.1), (25e3, 30e3, 60e3)),
@@ -32,6 +33,7 @@ ENGINES = {
             "alternator": laws.FluxProfile(cosines=(0.1,), sines=(0.05,), cogging=(20.0,)),
             "springs": laws.EndStops(gap=0.088),
             "friction": laws.ConstantFriction(60.0),
+            "completeness": laws.CompletenessByRatio((0.4, 0.7), (0.7, 1.0)),
         }
     ),
     "instant, late, misfires": BASE.replace(
@@ -88,11 +90,34 @@ def test_spark_comes_at_its_clearance():
     np.testing.assert_allclose(clearance, 0.016, rtol=1e-12)
 
 
+def test_spark_comes_a_time_before_the_dead_centre_foreseen():
+    run = saleg.simulate(ENGINES["woschni, double Wiebe, circuit"], 0.25, rtol=1e-9)
+    sparks = run.events[(run.events.event == "ignition") & (run.events.side == "left")].t.values
+    ends, durations = run.strokes["t"], run.strokes["duration"]
+    strokes = np.searchsorted(ends, sparks[1:])  # the first is the start's
+    foreseen = ends[strokes - 1] + durations[strokes - 1] - 1.2e-3
+    assert len(strokes) > 5
+    np.testing.assert_allclose(sparks[1:], foreseen, rtol=0, atol=1e-9)
+    assert np.ptp(durations) > 1e-4  # it was not steady
+
+
 def test_pressure_is_what_lights_a_charge():
     run = saleg.simulate(ENGINES["annand, profile, flux"], 0.25, rtol=1e-10)
     lit = run.events[run.events.event == "ignition"]
     assert len(lit) > 10
     np.testing.assert_allclose(lit.pressure, 30e5, rtol=1e-7)
+
+
+def test_what_does_not_burn_leaves_with_the_exhaust():
+    engine = ENGINES["annand, profile, flux"].replace(egr=0.0, equivalence_ratio=0.55)
+    p, T, clearance = engine.left.reference_state
+    mass = p * engine.left.area * clearance / (287.0 * T)
+    fuel = mass * 0.55 / (0.55 + engine.left.fuel.air_fuel_ratio)
+    gives = engine.left.fuel.lower_heating_value
+    energy = saleg.simulate(engine, 0.4).energy
+    released = 2.0 * 0.95 * 0.85 * fuel * gives  # both cylinders; at 0.55 the curve says 0.85
+    assert energy.released == pytest.approx(released, rel=1e-6)
+    assert energy.unburnt == pytest.approx(2.0 * fuel * gives - released, rel=1e-6)
 
 
 def test_instant_release_at_dead_centre_is_constant_volume_combustion():

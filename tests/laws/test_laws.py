@@ -17,7 +17,7 @@ from saleg.compiler.source import Borrowed
 from saleg.compiler.strength_reduction import EXPONENTIAL
 from saleg.compiler.text import CHOICE
 from saleg.kernel.logarithms import Logarithms
-from saleg.laws import Charge, Gas, Motion, Stroke
+from saleg.laws import Charge, Gas, Motion, Parts, Stroke
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, Law
 from saleg.quantities import problems
 
@@ -30,6 +30,7 @@ GASES = [
         (3e4, 180.0, 1e-6, 60.0, 0.0),
     )
 ]
+PARTS = Parts(1.5e-5, 4.3e-4, 5.5e-5)
 CHARGE = Charge(5e-4, 1.5e-5, 4.3e-4, 5.5e-5, 0.6, 1.05e5, 325.0, 4.3e-4, 5.8e-4)
 MOTIONS = [
     Motion(0.1, x, v, d, i)
@@ -46,6 +47,8 @@ ARGUMENTS = {
     "gamma": [(T,) for T in (150.0, 300.0, 1000.0, 2500.0, 3500.0)],
     "internal_energy": [(T,) for T in (150.0, 300.0, 1000.0, 2500.0, 3500.0)],
     "breakpoint": [()],
+    "heat_capacity_of": [(T, PARTS) for T in (150.0, 300.0, 1000.0, 2500.0)],
+    "energy_of": [(T, PARTS) for T in (150.0, 300.0, 1000.0, 2500.0)],
     "coefficient": [(gas, CHARGE) for gas in GASES],
     "duration": [(gas, CHARGE) for gas in GASES],
     "rate": [(gas, CHARGE) for gas in GASES],
@@ -54,6 +57,7 @@ ARGUMENTS = {
     "charge": [(5e-4, 1e-6, 2e-4, 3e-4, 0.6, 17.5), (5e-4, 4e-5, 4e-4, 6e-5, 0.0, 17.5)],
     "areas": [(opening,) for opening in (-0.01, 0.0, 0.006, 0.03)],
     "exhaust": [()],
+    "share": [(gas, CHARGE) for gas in GASES],
     "fresh_share": [(share,) for share in (-1e-9, 0.0, 0.4, 1.0)],
     "area": [(gas,) for gas in GASES],
     "beyond": [()],
@@ -470,3 +474,10 @@ def test_laws_of_any_shape_keep_their_value_when_eased(law):
 def test_a_burn_profile_covers_its_duration_and_never_falls(times, fractions, said):
     found = problems(laws.BurnProfile(times=times, fractions=fractions))
     assert said in str(found[0])
+
+
+def test_completeness_is_a_curve_over_the_equivalence_ratio():
+    law = laws.CompletenessByRatio((0.2, 0.4, 1.0), (0.0, 0.9, 0.95))
+    found = [law.share(None, CHARGE._replace(equivalence_ratio=phi)) for phi in (0.1, 0.3, 0.4, 2)]
+    assert found == pytest.approx([0.0, 0.45, 0.9, 0.95], rel=1e-15)
+    assert laws.CompleteCombustion().share(None, CHARGE) == 1.0

@@ -7,6 +7,7 @@ import pytest
 
 import saleg
 from agreement import assert_rows_agree
+from breathing_engines import PORTS
 from helpers import single_piston
 from library_laws import LAWS
 from saleg import Effort, Engine, laws
@@ -21,6 +22,8 @@ from saleg.steady.many import Limits, searched, steady_rows
 #: magnitude of the force, which has a corner where the current changes its sign.
 NOT_COMPARED = ("t", "ignition_time", "alternator_impulse")
 FINE = 1e-9
+#: Whether a step is looked into for a peak of the pressure rise is guessed.
+GUESSED, GUESSED_WITHIN = "peak_pressure_rise", 1e-5
 
 
 @pytest.fixture
@@ -79,6 +82,22 @@ def liftoff(base):
     )
 
 
+def breathing(base):
+    """Ports on both sides, and a charged intake."""
+    return base.replace(gas_exchange=PORTS, **{"intake.pressure": 1.4e5})
+
+
+def breathing_on_one_side(base):
+    """One cylinder with crankcase and leaking rings, before a tight gas spring."""
+    cylinder = replace(
+        breathing(base).left,
+        supply=laws.Crankcase(volume_at_midpoint=6e-4, area=4e-3, reed=6e-4),
+        leak=laws.RingLeak(gap=3e-7),
+    )
+    spring = saleg.BounceChamber(bore=0.064, half_stroke=0.1, pressure=2.5e5)
+    return replace(single_piston(base), left=cylinder, right=spring)
+
+
 def patchy(base):
     """A law of a user's."""
     return with_laws(base, PatchyTransfer())
@@ -104,8 +123,8 @@ def orbits_of(engines, total, rtol=FINE):
     return found
 
 
-def assert_lanes_agree(engines):
-    """Engines searched for side by side have the orbits they have one by one; returns them."""
+def assert_lanes_agree(engines, but=NOT_COMPARED):
+    """Engines searched for side by side have the orbits they have one by one; how many have one."""
     (rows,) = rows_by_make(engines)
     totals = len(engines), 0
     pairs = zip(*(steady_rows(rows, FINE, Effort.THOROUGH, total) for total in totals), strict=True)
@@ -115,7 +134,8 @@ def assert_lanes_agree(engines):
         count += len(found.strokes)
         for side in range(2):
             rows, others = found.strokes[:, side], wanted.strokes[:, side]
-            assert_rows_agree(rows, others, 1e-8, but=NOT_COMPARED)
+            assert_rows_agree(rows, others, 1e-8, but=but)
+            assert_rows_agree(rows[[GUESSED]], others[[GUESSED]], GUESSED_WITHIN)
         assert imbalance(found.strokes[:, 1], found.strokes).max() < 1e-8
         for name in ("x_dead_centre", "stroke"):
             begun, others = found.starts.engine[name], wanted.starts.engine[name]
@@ -128,6 +148,11 @@ def test_lanes_find_what_one_by_one_finds(base, at_once):
     assert assert_lanes_agree(list(variations(uneven(base), 12))) == 12
 
 
+def test_lanes_find_what_breathing_engines_do_one_by_one(base, at_once):
+    engines = list(variations(breathing(base), 20))
+    assert assert_lanes_agree(engines, but=(*NOT_COMPARED, GUESSED)) == 20
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("choice", [crossed, single_piston, liftoff, patchy])
 def test_lanes_of_other_laws_too(base, at_once, choice):
@@ -135,9 +160,18 @@ def test_lanes_of_other_laws_too(base, at_once, choice):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("law", [law for law in LAWS if not law.states], ids=repr)
+def test_lanes_of_single_piston_engines_that_breathe(base, at_once):
+    engines = list(variations(breathing_on_one_side(base), 12))
+    assert assert_lanes_agree(engines, but=(*NOT_COMPARED, GUESSED)) > 6
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "law", [law for law in LAWS if not {"wall_temperature", "frame"} & {*law.states}], ids=repr
+)
 def test_lanes_of_every_law_of_the_library(base, at_once, law):
-    assert_lanes_agree(list(variations(with_laws(base, law), 12)))
+    engines = list(variations(with_laws(base, law), 12))
+    assert_lanes_agree(engines, but=(*NOT_COMPARED, *[GUESSED] * bool(law.states)))
 
 
 def test_rows_do_not_depend_on_their_neighbours(base, at_once):
@@ -149,8 +183,9 @@ def test_rows_do_not_depend_on_their_neighbours(base, at_once):
         np.testing.assert_array_equal(table[name].to_numpy(), again[name].to_numpy(), err_msg=name)
 
 
-def test_what_is_no_number_harms_no_other(base, at_once):
-    (rows,) = rows_by_make(list(variations(base, 9)))
+@pytest.mark.parametrize("choice", [lambda base: base, breathing], ids=["plain", "breathing"])
+def test_what_is_no_number_harms_no_other(base, at_once, choice):
+    (rows,) = rows_by_make(list(variations(choice(base), 9)))
     limits = Limits(100, 100_000, 100.0)
 
     def spoil(states, ready):

@@ -38,21 +38,25 @@ class Needs(NamedTuple):
         :data:`saleg.kernel.layout.CHAMBER_STATES`.
     frame : bool
         Position and velocity of the frame: it moves.
+    composition : bool
+        Whether the gas of a chamber changes with its composition.
     """
 
     motored_pressure: bool
     current: bool
     chambers: frozenset[str] = frozenset()
     frame: bool = False
+    composition: bool = False
 
     @classmethod
     def of(cls, classes: Sequence[type[Law]], motored_pressure: bool) -> Needs:
         """Needs of some law classes."""
         alternators = [law for law in classes if issubclass(law, Alternator)]
         has_rate = any(law.current_rate is not Alternator.current_rate for law in alternators)
+        composition = any(getattr(law, "follows_composition", False) for law in classes)
         names = asked_for(classes)
         chambers = names.intersection(layout.CHAMBER_STATES)
-        return cls(motored_pressure, has_rate, chambers, "frame" in names)
+        return cls(motored_pressure, has_rate, chambers, "frame" in names, composition)
 
     @property
     def states(self) -> list[Stretch]:
@@ -90,6 +94,7 @@ class Needs(NamedTuple):
         return (
             f"MOTORED_PRESSURE_IS_WANTED = {self.motored_pressure}\n"
             f"CURRENT_IS_WANTED = {self.current}\n"
+            f"COMPOSITION_IS_WANTED = {self.composition}\n"
             f"CONTENTS_ARE_WANTED = {'contents' in self.chambers}\n"
             f"WALL_TEMPERATURE_IS_WANTED = {'wall_temperature' in self.chambers}\n"
             f"CRANKCASE_IS_WANTED = {'crankcase' in self.chambers}\n"

@@ -32,7 +32,7 @@ Lengths = tuple[tuple[str, int], ...]
 @lru_cache(maxsize=256)
 def names_of(law: Any) -> tuple[str, ...]:
     """Names of the numbers of a law class, in the order of its record."""
-    return tuple(item.name for item in dataclasses.fields(law))
+    return (*(item.name for item in dataclasses.fields(law)), *law.derived)
 
 
 def lengths_of(law: Law) -> Lengths:
@@ -110,8 +110,9 @@ def _have_series(classes: tuple[Any, ...]) -> bool:
 
 @lru_cache(maxsize=256)
 def _series_names(law: Any) -> tuple[str, ...]:
-    """Fields of a law class that hold a series of numbers."""
-    return tuple(item.name for item in dataclasses.fields(law) if "series" in item.metadata)
+    """What of a law class holds a series of numbers."""
+    fields = [item.name for item in dataclasses.fields(law) if "series" in item.metadata]
+    return (*fields, *law.derived)
 
 
 @lru_cache(maxsize=256)

@@ -98,6 +98,7 @@ def check_returns(tree: ast.FunctionDef, owner: str, kind: str | None = None) ->
 def check_own(law: type[Law], tree: ast.FunctionDef, owner: str) -> None:
     """A law's record holds its numbers only: refuse anything else asked of ``self``."""
     fields = {item.name for item in dataclasses.fields(law)}  # type: ignore[arg-type]
+    fields.update(law.derived)
     own = tree.args.args[0].arg
     for node in ast.walk(tree):
         if isinstance(node, ast.Subscript) and not isinstance(node.ctx, ast.Load):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from saleg.laws import (
     CFRIgnition,
     ChangGas,
+    CompleteCombustion,
     FixedWall,
     Hohenberg,
     InstantExchange,
@@ -21,6 +22,7 @@ from saleg.laws import (
 )
 from saleg.laws.base import (
     CHAMBER_SLOTS,
+    Completeness,
     GasExchange,
     GasProperties,
     HeatRelease,
@@ -239,7 +241,7 @@ class CombustionChamber(GasChamber):
         1 if a charge that has not lit by its dead centre may still light itself later, while it is
         trapped; 0 if it may not [-].
     fuel : Fuel
-    heat_transfer, heat_release, ignition, gas_exchange, misfires : Law
+    heat_transfer, heat_release, ignition, completeness, gas_exchange, misfires : Law
         The laws in the chamber's slots.
     """
 
@@ -251,6 +253,7 @@ class CombustionChamber(GasChamber):
     heat_transfer: HeatTransfer = field(default_factory=Hohenberg)
     heat_release: HeatRelease = field(default_factory=Wiebe)
     ignition: Ignition = field(default_factory=CFRIgnition)
+    completeness: Completeness = field(default_factory=CompleteCombustion)
     gas_exchange: GasExchange = field(default_factory=InstantExchange)
     misfires: Misfires = field(default_factory=NoMisfires)
 

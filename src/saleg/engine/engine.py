@@ -411,7 +411,11 @@ def _geometry_problems(engine: Engine) -> list[Problem]:
             allowed = f"must be > head_gap ({gap:g} m) and < the maximum stroke ({most:g} m)"
             found.append(Problem(side + "port_closing", port, "m", allowed))
     if not found and all(_has_numbers(chamber) for chamber in engine.chambers):
-        limits = (*_limits_of_flow(engine, most), *_limits_of_backs(engine))
+        limits = (
+            *_limits_of_flow(engine, most),
+            *_limits_of_backs(engine),
+            *_limits_of_composition(engine),
+        )
         for number, path, good, unit, allowed in limits:
             if not good and number < len(sides):
                 path = sides[number] + path
@@ -450,6 +454,18 @@ def _limits_of_backs(engine: Engine) -> Iterator[tuple[int, str, Any, str, str]]
             area, pressure = chamber.back_area, chamber.back_pressure  # type: ignore[attr-defined]
             kept = (area > 0.0) | (pressure == 0.0)
             yield side, "back_area", kept, "m^2", "must be > 0 with a back_pressure"
+
+
+def _limits_of_composition(engine: Engine) -> Iterator[tuple[int, str, Any, str, str]]:
+    """Limits of gases that follow the composition, as :func:`_limits_of_flow` has them."""
+    for side, chamber in enumerate(engine.chambers):
+        gas = getattr(chamber, "gas_properties", None)
+        if gas is not None and gas.follows_composition:
+            flows = any("contents" in law.states for law in chamber.laws.values() if law != gas)
+            allowed = (
+                "must be one gas, such as MixtureGas, in a chamber that gas flows or leaks into"
+            )
+            yield side, "gas_properties", not flows, "-", allowed
 
 
 def _limits_of_flow(engine: Engine, most: Any) -> Iterator[tuple[int, str, Any, str, str]]:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from saleg.columns import exp, log, sqrt
 from saleg.engine.chambers import Chamber
-from saleg.laws.arguments import Motion
+from saleg.laws.arguments import Charge, Gas, Motion
 from saleg.laws.usual import FREQUENCY
 from saleg.quantities import Quantities, quantity
 
@@ -249,10 +249,32 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
     if phi <= 0.0:
         return mass, 0.0, mass, 0.0
     egr = getattr(cylinder.gas_exchange, "egr", 0.0)
-    burning = cylinder.combustion_efficiency * cylinder.heat_release.burnt_fraction(1.0)
-    burnt_per_fuel = (1.0 + ratio) * burning * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
+    burnt_per_fuel = (
+        (1.0 + ratio) * burning_share(cylinder) * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
+    )
     fuel = mass / (1.0 + ratio / phi + burnt_per_fuel)
     return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
+
+
+def burning_share(cylinder: Any) -> float:
+    """Share of the fuel there is air for that a cylinder burns in the end [-].
+
+    Parameters
+    ----------
+    cylinder : Cylinder or SealedCylinder
+
+    Returns
+    -------
+    float
+    """
+    p, T, clearance = cylinder.reference_state
+    volume, wall = cylinder.area * clearance, cylinder.wall_temperature
+    gas = Gas(p, T, volume, p, clearance, cylinder.bore, 0.0, wall, 0.0)
+    mass, phi = charge_mass(cylinder), cylinder.equivalence_ratio
+    fuel = mass * phi / (phi + cylinder.fuel.air_fuel_ratio)
+    charge = Charge(mass, fuel, mass - fuel, 0.0, phi, p, T, volume, volume)
+    share = cylinder.combustion_efficiency * cylinder.completeness.share(gas, charge)
+    return share * cylinder.heat_release.burnt_fraction(1.0)
 
 
 def charge_mass(chamber: Any) -> float:

@@ -98,6 +98,7 @@ def compute_delays(
     equivalence_ratios: Sequence[float] = EQUIVALENCE_RATIOS,
     burnt_shares: Sequence[float] = BURNT_SHARES,
     species: dict[str, str] | None = None,
+    phase: str = "",
 ) -> TabulatedDelay:
     """Compute ignition delays by a chemical mechanism; needs the extra ``saleg[chemistry]``.
 
@@ -114,6 +115,8 @@ def compute_delays(
     species : dict of str to str, optional
         What the mechanism calls molecules of :func:`saleg.fuels.pure`, air and products, where it
         does not follow their formulas.
+    phase : str
+        Phase of the mechanism, where it has several: an ideal gas.
 
     Returns
     -------
@@ -139,7 +142,7 @@ def compute_delays(
         wrong.append(f"fuel = {shown(fuel)}: must be a fuel of saleg.fuels")
     if wrong:
         raise FuelError("\n".join(wrong))
-    gas = _solution(mechanism)
+    gas = _solution(mechanism, phase)
     names = FORMULAS | (species or {})
     delays = []
     for share, p, T, ratio in itertools.product(*grids.values()):
@@ -161,16 +164,19 @@ def _is_grid(grid: Any, name: str) -> bool:
     return bool(numbers) and len(known) == len(numbers) and rising
 
 
-def _solution(mechanism: str) -> Any:
+def _solution(mechanism: str, phase: str) -> Any:
     """Gas of a mechanism."""
     try:
         import cantera
     except ImportError:
         raise FuelError('needs Cantera: pip install "saleg[chemistry]"') from None
     try:
-        return cantera.Solution(mechanism)
+        gas = cantera.Solution(mechanism, phase)
     except Exception as error:
         raise FuelError(f"mechanism = {shown(mechanism)}: Cantera cannot read it") from error
+    if gas.thermo_model != "ideal-gas":
+        raise FuelError(f"mechanism = {shown(mechanism)}: must be an ideal gas; name it in phase")
+    return gas
 
 
 def _charge(fuel: RealFuel, ratio: float, burnt: float) -> dict[str, float]:

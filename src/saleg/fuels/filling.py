@@ -23,6 +23,7 @@ def fill(
     fuel_mass: float | None = None,
     heat: float | None = None,
     burnt: float | None = None,
+    follows: bool = False,
 ) -> Engine:
     """Engine whose cylinders run on a fuel.
 
@@ -40,7 +41,10 @@ def fill(
         Lower heating value of that fuel [J].
     burnt : float, optional
         Share of burnt gas the gas properties are those of [-]; that which the gas exchange retains
-        unless given. A charge keeps one gas for a whole cycle.
+        unless given.
+    follows : bool
+        Whether the gas follows the combustion (:class:`~saleg.laws.BurningGas`); if not, a charge
+        keeps one gas for a whole cycle.
 
     Returns
     -------
@@ -67,7 +71,7 @@ def fill(
         raise FuelError("\n".join(wrong))
     for side in engine.gas_sides:
         if isinstance(getattr(engine, side), CombustionChamber):
-            engine = _filled(engine, side, fuel, amounts, burnt)
+            engine = _filled(engine, side, fuel, amounts, burnt, follows)
     return engine
 
 
@@ -89,16 +93,23 @@ def _problems(engine: Any, fuel: Any, amounts: dict[str, Any]) -> list[str]:
 
 
 def _filled(
-    engine: Engine, side: str, fuel: RealFuel, amounts: dict[str, Any], burnt: float | None
+    engine: Engine,
+    side: str,
+    fuel: RealFuel,
+    amounts: dict[str, Any],
+    burnt: float | None,
+    follows: bool,
 ) -> Engine:
     """Engine with one cylinder on a fuel."""
     cylinder = getattr(engine, side)
     retained = float(getattr(cylinder.gas_exchange, "egr", 0.0)) if burnt is None else burnt
 
+    gas = fuel.burning_gas if follows else fuel.charge
+
     def at(ratio: float) -> Engine:
         values = {
             "fuel": fuel.fuel,
-            "gas_properties": fuel.charge(ratio, retained),
+            "gas_properties": gas(ratio, retained),
             "equivalence_ratio": float(ratio),
         }
         return engine.replace(**{f"{side}.{name}": value for name, value in values.items()})

@@ -11,7 +11,7 @@ from saleg.engine import Fuel
 from saleg.errors import SalegError, nearest, shown
 from saleg.fuels.mixtures import NITROGEN, added, gas_of, mass_of, times
 from saleg.fuels.species import Atoms, all_species
-from saleg.laws import MixtureGas
+from saleg.laws import BurningGas, MixtureGas
 from saleg.quantities import as_float
 
 #: Gases that are no fuels.
@@ -109,6 +109,41 @@ class RealFuel:
         fresh, gone = self.fresh(ratio), self.burnt(ratio)
         return gas_of(
             added(times((1.0 - share) / mass_of(fresh), fresh), times(share / mass_of(gone), gone))
+        )
+
+    def burning_gas(self, equivalence_ratio: float, burnt: float = 0.0) -> BurningGas:
+        """Gas of this fuel, air and what they burn to, whose composition follows the combustion.
+
+        Parameters
+        ----------
+        equivalence_ratio, burnt : float
+            Of the charge a run starts with, as of :meth:`charge` [-].
+
+        Returns
+        -------
+        BurningGas
+            For ``gas_properties`` of a chamber.
+
+        Raises
+        ------
+        FuelError
+            If a number is out of range.
+        """
+        start = self.charge(equivalence_ratio, burnt)
+        fuel, air, burnt_gas = map(gas_of, (self.moles, self._air(1.0), self.burnt(1.0)))
+        return BurningGas(
+            gas_constant=start.gas_constant,
+            low=start.low,
+            high=start.high,
+            fuel_constant=fuel.gas_constant,
+            air_constant=air.gas_constant,
+            burnt_constant=burnt_gas.gas_constant,
+            fuel_low=fuel.low,
+            fuel_high=fuel.high,
+            air_low=air.low,
+            air_high=air.high,
+            burnt_low=burnt_gas.low,
+            burnt_high=burnt_gas.high,
         )
 
     def fresh(self, equivalence_ratio: float) -> dict[str, float]:

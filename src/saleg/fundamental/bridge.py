@@ -7,7 +7,7 @@ from typing import Any
 
 from saleg.checks import a, checked
 from saleg.engine import Chamber, CombustionChamber, Engine
-from saleg.engine.start import standard_charge
+from saleg.engine.start import burning_share, standard_charge
 from saleg.errors import InvalidEngine, OutsideModel
 from saleg.fundamental.balance import at_equilibrium
 from saleg.fundamental.checks import SCALAR
@@ -184,5 +184,4 @@ def _heat(chamber: Chamber) -> float:
         return 0.0
     _, fuel, air, _ = standard_charge(chamber)
     burning = min(fuel, air / chamber.fuel.air_fuel_ratio)
-    share = chamber.combustion_efficiency * chamber.heat_release.burnt_fraction(1.0)
-    return burning * share * chamber.fuel.lower_heating_value
+    return burning * burning_share(chamber) * chamber.fuel.lower_heating_value

@@ -31,6 +31,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.needs import (
+    COMPOSITION_IS_WANTED,
     CONTENTS_ARE_WANTED,
     CRANKCASE_IS_WANTED,
     WALL_TEMPERATURE_IS_WANTED,
@@ -39,7 +40,9 @@ from saleg.kernel.slots import (
     gas_exchange_areas,
     gas_exchange_exhaust,
     gas_exchange_fresh_share,
+    gas_properties_energy_of,
     gas_properties_gamma,
+    gas_properties_heat_capacity_of,
     gas_properties_internal_energy,
     leak_area,
     leak_beyond,
@@ -48,18 +51,28 @@ from saleg.kernel.slots import (
     supply_volume,
     wall_temperature_rate,
 )
+from saleg.laws.arguments import Parts
+from saleg.laws.choice import any_of, where
+
+# The laws decide about these three: of engines side by side, one answer holds for all.
 
 
 @inline
 def breathes(C, side):
     """Whether the masses in a chamber are integrated."""
-    return CONTENTS_ARE_WANTED and C[side].breathes > 0.0
+    return CONTENTS_ARE_WANTED and any_of(C[side].breathes > 0.0)
 
 
 @inline
 def by_flow(C, side):
     """Whether gas flows through the ports of a chamber while they are open."""
-    return CONTENTS_ARE_WANTED and C[side].by_flow > 0.0
+    return CONTENTS_ARE_WANTED and any_of(C[side].by_flow > 0.0)
+
+
+@inline
+def has_crankcase(y, side):
+    """Whether a crankcase stands before the ports of a chamber."""
+    return CRANKCASE_IS_WANTED and any_of(y[CRANKCASE_MASS + side] > 0.0)
 
 
 @inline
@@ -77,8 +90,75 @@ def mass_of(C, side, y):
 
 
 @inline
+def follows(C, side):
+    """Whether the gas of a chamber changes with its composition."""
+    return COMPOSITION_IS_WANTED and C[side].follows > 0.0
+
+
+@inline
+def parts_of(y, side):
+    """What a chamber that breathes holds."""
+    return Parts(y[FUEL + side], y[AIR + side], y[BURNT + side])
+
+
+@inline
+def weighted(C, side, parts):
+    """Sum of the specific gas constants of parts of a gas, each times its mass [J/K]."""
+    c = C[side]
+    fuel, air = parts.fuel * c.fuel_constant, parts.air * c.air_constant
+    return fuel + air + parts.burnt * c.burnt_constant
+
+
+@inline
+def mass_gas_of(C, side, y):
+    """Mass of the gas in a chamber times its gas constant [J/K]."""
+    if follows(C, side):
+        return weighted(C, side, parts_of(y, side))
+    return mass_of(C, side, y) * C[side].gas_constant
+
+
+@inline
+def gamma_of(P, C, side, y, T):
+    """Ratio of specific heats of the gas in a chamber."""
+    if follows(C, side):
+        parts = parts_of(y, side)
+        heat_capacity = gas_properties_heat_capacity_of(P, side, T, parts)
+        return 1.0 + weighted(C, side, parts) / heat_capacity
+    return gas_properties_gamma(P, side, T)
+
+
+@inline
+def energy_of(P, C, side, y, T):
+    """Internal energy of the gas in a chamber [J]."""
+    if follows(C, side):
+        return gas_properties_energy_of(P, side, T, parts_of(y, side))
+    return mass_of(C, side, y) * gas_properties_internal_energy(P, side, T)
+
+
+@inline
+def burning_parts(C, side, released):
+    """Rates at which parts of a gas change as they release some heat [kg/s]."""
+    c = C[side]
+    fuel = released / c.lower_heating_value
+    return Parts(-fuel, -c.air_fuel_ratio * fuel, (1.0 + c.air_fuel_ratio) * fuel)
+
+
+@inline
+def rate_by_composition(P, C, side, y, gas, g, released):
+    """Part in the rate of the logarithm of the pressure that comes from the composition [1/s].
+
+    The number of moles changes, and so does the energy the gas has at its temperature.
+    """
+    change = burning_parts(C, side, released)
+    moles = weighted(C, side, change) / mass_gas_of(C, side, y)
+    return moles - (g - 1.0) * gas_properties_energy_of(P, side, gas.T, change) / (gas.p * gas.V)
+
+
+@inline
 def dilution(C, side, y, dy):
-    """Relative rate of the mass in a chamber that breathes [1/s]."""
+    """Relative rate of the mass in a chamber that breathes times its gas constant [1/s]."""
+    if follows(C, side):
+        return weighted(C, side, parts_of(dy, side)) / mass_gas_of(C, side, y)
     return (dy[FUEL + side] + dy[AIR + side] + dy[BURNT + side]) / mass_of(C, side, y)
 
 
@@ -102,12 +182,11 @@ def take_contents(C, y):
             c.wall_temperature = y[WALL + side]
 
 
-class Supplied(NamedTuple):
-    """Gas before the intake ports: pressure [Pa], temperature [K], share of burnt gas [-]."""
+class Crankcase(NamedTuple):
+    """Gas in a crankcase: pressure [Pa] and temperature [K]."""
 
     p: float
     T: float
-    burnt: float
 
 
 class Flows(NamedTuple):
@@ -144,9 +223,10 @@ class Flows(NamedTuple):
 
 
 @inline
-def no_flows():
+def no_flows(C, side):
     """Flows of a tight chamber."""
-    return Flows(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    o = where(C[side].breathes > 0.0, 0.0, 0.0)  # as many zeros as there are engines
+    return Flows(o, o, o, o, o, o, o, o, o, o, o, o, o, o)
 
 
 @inline
@@ -158,22 +238,28 @@ def enthalpy_at(P, side, T, R):
 @inline
 def flow_in(P, side, area, gas, g, R, p_beyond, T_beyond):
     """Mass flow into a chamber through an opening, negative out of it [kg/s]."""
-    if area <= 0.0:
-        return 0.0
-    if p_beyond > gas.p:
-        g_beyond = gas_properties_gamma(P, side, T_beyond)
-        return orifice_flow(area, p_beyond, T_beyond, gas.p, g_beyond, R)
-    return -orifice_flow(area, gas.p, gas.T, p_beyond, g, R)
+    flow, passes = 0.0, where(area <= 0.0, False, True)
+    if any_of(passes):
+        inward = p_beyond > gas.p
+        p, T, p_down, g_up = gas.p, gas.T, p_beyond, g
+        if any_of(inward):
+            g_beyond = gas_properties_gamma(P, side, T_beyond)
+            p, T = where(inward, p_beyond, gas.p), where(inward, T_beyond, gas.T)
+            p_down, g_up = where(inward, gas.p, p_beyond), where(inward, g_beyond, g)
+        through = orifice_flow(area, p, T, p_down, g_up, R)
+        flow = where(passes, where(inward, through, -through), 0.0)
+    return flow
 
 
 @inline
 def supply_of(P, C, side, y):
     """Gas before the intake ports."""
     c = C[side]
-    if CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0:
+    p, T, burnt = c.intake_pressure, c.intake_temperature, 0.0
+    if has_crankcase(y, side):
         p, T = crankcase_of(P, C, side, y)
-        return Supplied(p, T, y[CRANKCASE_BURNT + side] / y[CRANKCASE_MASS + side])
-    return Supplied(c.intake_pressure, c.intake_temperature, 0.0)
+        burnt = y[CRANKCASE_BURNT + side] / y[CRANKCASE_MASS + side]
+    return p, T, burnt
 
 
 @inline
@@ -197,25 +283,30 @@ def chamber_flows(P, C, side, y, gas):
     R, mass = c.gas_constant, mass_of(C, side, y)
     g = gas_properties_gamma(P, side, gas.T)
     area_in, area_out, p_exhaust, T_exhaust = 0.0, 0.0, gas.p, gas.T
-    supply = Supplied(c.intake_pressure, c.intake_temperature, 0.0)
-    if c.mode == OPEN:
-        area_in, area_out = gas_exchange_areas(P, side, gas.clearance - c.port)
+    p_supply, T_supply, burnt_supply = c.intake_pressure, c.intake_temperature, 0.0
+    is_open = c.mode == OPEN
+    if any_of(is_open):
+        in_now, out_now = gas_exchange_areas(P, side, gas.clearance - c.port)
+        area_in, area_out = where(is_open, in_now, 0.0), where(is_open, out_now, 0.0)
         p_exhaust, T_exhaust = gas_exchange_exhaust(P, side)
-        supply = supply_of(P, C, side, y)
+        p_supply, T_supply, burnt_supply = supply_of(P, C, side, y)
     p_leak, T_leak = leak_beyond(P, side)
-    intake = flow_in(P, side, area_in, gas, g, R, supply.p, supply.T)
+    intake = flow_in(P, side, area_in, gas, g, R, p_supply, T_supply)
     exhaust = flow_in(P, side, area_out, gas, g, R, p_exhaust, T_exhaust)
-    leak = flow_in(P, side, leak_area(P, side, gas), gas, g, R, p_leak, T_leak)
+    gap = where(has_own_pressure(C, side), leak_area(P, side, gas), 0.0)
+    leak = flow_in(P, side, gap, gas, g, R, p_leak, T_leak)
     # Compositions: of the supply with fuel metered to its air at the ports, of what leaves, of the
     # gas.
-    metered = c.fuel_factor * c.equivalence_ratio_wanted * (1.0 - supply.burnt)
+    metered = c.fuel_factor * c.equivalence_ratio_wanted * (1.0 - burnt_supply)
     fuel_share = metered / (metered + c.air_fuel_ratio)
-    burnt_share = (1.0 - fuel_share) * supply.burnt
+    burnt_share = (1.0 - fuel_share) * burnt_supply
     fuel_out, burnt_out, fresh_out = 0.0, 0.0, 0.0
-    if c.mode == OPEN:
-        fuel_out, burnt_out, fresh_out = shares_leaving(
+    if any_of(is_open):
+        fuel_now, burnt_now, fresh_now = shares_leaving(
             P, C, side, y, mass, fuel_share, burnt_share
         )
+        fuel_out, burnt_out = where(is_open, fuel_now, 0.0), where(is_open, burnt_now, 0.0)
+        fresh_out = where(is_open, fresh_now, 0.0)
     fuel_here, burnt_here = y[FUEL + side] / mass, y[BURNT + side] / mass
     fresh_here = y[FRESH + side] / mass
     fed, drawn_back = max(intake, 0.0), max(-intake, 0.0)
@@ -227,7 +318,7 @@ def chamber_flows(P, C, side, y, gas):
     burnt = fed * burnt_share + back - leaves * burnt_out - leaked * burnt_here
     fresh = fed - leaves * fresh_out - leaked * fresh_here
     h, u = enthalpy_at(P, side, gas.T, R), gas_properties_internal_energy(P, side, gas.T)
-    h_supply = enthalpy_at(P, side, supply.T, R)
+    h_supply = enthalpy_at(P, side, T_supply, R)
     h_in = fed * h_supply
     h_in += back * enthalpy_at(P, side, T_exhaust, R) + seeped * enthalpy_at(P, side, T_leak, R)
     out = leaves + leaked
@@ -256,9 +347,9 @@ def write_contents(P, C, side, y, rates, dy):
     """Write the rates of the states a chamber's laws ask for."""
     if CONTENTS_ARE_WANTED:
         c, flows = C[side], rates.flows
-        burning = rates.released / c.lower_heating_value if rates.released > 0.0 else 0.0
-        if not breathes(C, side):
-            burning = 0.0
+        burning, burns = 0.0, rates.released > 0.0
+        if breathes(C, side) and any_of(burns):
+            burning = where(burns, rates.released / c.lower_heating_value, 0.0)
         dy[FUEL + side] = flows.fuel - burning
         dy[AIR + side] = flows.air - c.air_fuel_ratio * burning
         dy[BURNT + side] = flows.burnt + (1.0 + c.air_fuel_ratio) * burning
@@ -287,37 +378,36 @@ def crankcase_of(P, C, side, y):
     volume = supply_volume(P, side, displacement_of(C, side, y[X]))
     squeeze = volume / supply_volume(P, side, 0.0)
     p = exp(y[CRANKCASE_THETA + side] - G0 * log(squeeze))
-    return p, p * volume / (y[CRANKCASE_MASS + side] * C[side].gas_constant)
+    return Crankcase(p, p * volume / (y[CRANKCASE_MASS + side] * C[side].gas_constant))
 
 
 @inline
 def crankcase_force(P, C, side, y):
     """Force of a crankcase on its piston, over the intake's pressure [N]; right is positive."""
-    if not (CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0):
-        return 0.0
-    p, _ = crankcase_of(P, C, side, y)
-    return -C[side].sign * supply_piston_area(P, side) * (p - C[side].intake_pressure)
+    force = 0.0
+    if has_crankcase(y, side):
+        rise = crankcase_of(P, C, side, y).p - C[side].intake_pressure
+        force = -C[side].sign * supply_piston_area(P, side) * rise
+    return force
 
 
 @compiled
 def write_crankcase(P, C, side, y, flows, dy):
     """Write the rates of a crankcase that draws from the intake and feeds the ports."""
-    c = C[side]
-    if y[CRANKCASE_MASS + side] <= 0.0:
+    if not has_crankcase(y, side):
         return
+    c = C[side]
     R, mass = c.gas_constant, y[CRANKCASE_MASS + side]
-    p, T = crankcase_of(P, C, side, y)
+    gas = crankcase_of(P, C, side, y)
+    p, T = gas.p, gas.T
     volume = supply_volume(P, side, displacement_of(C, side, y[X]))
     growth = -supply_piston_area(P, side) * c.sign * y[V]
     g, u = gas_properties_gamma(P, side, T), gas_properties_internal_energy(P, side, T)
     area = supply_inlet_area(P, side, c.intake_pressure - p)
-    inlet, h = 0.0, u + R * T
-    if area > 0.0 and c.intake_pressure > p:
-        g_in = gas_properties_gamma(P, side, c.intake_temperature)
-        inlet = orifice_flow(area, c.intake_pressure, c.intake_temperature, p, g_in, R)
-        h = enthalpy_at(P, side, c.intake_temperature, R)
-    elif area > 0.0:
-        inlet = -orifice_flow(area, p, T, c.intake_pressure, g, R)
+    inlet = flow_in(P, side, area, gas, g, R, c.intake_pressure, c.intake_temperature)
+    h, draws = u + R * T, inlet > 0.0
+    if any_of(draws):
+        h = where(draws, enthalpy_at(P, side, c.intake_temperature, R), h)
     net = inlet - flows.drawn
     heat = inlet * h - flows.drawn_enthalpy - u * net - p * growth
     # Of the rate of ln p the part G0 dV/V belongs to theta.

@@ -2,7 +2,7 @@
 
 from math import exp, inf, isfinite, log1p, sqrt
 
-from saleg.kernel.breathing import breathes, dilution, has_own_pressure, mass_of
+from saleg.kernel.breathing import breathes, dilution, has_own_pressure, mass_gas_of
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     BREAKPOINT,
@@ -309,5 +309,5 @@ def pressure_and_temperature(C, side, y):
     if any_of(own):
         p = where(own, exp(ln_pressure(C, side, y[X], y[THETA + side])), p)
         pV = p * c.area * clearance_of(C, side, y[X])
-        T = where(own, pV / (mass_of(C, side, y) * c.gas_constant), T)
+        T = where(own, pV / mass_gas_of(C, side, y), T)
     return p, T

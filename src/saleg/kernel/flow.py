@@ -8,6 +8,7 @@ Internal Combustion Engine Fundamentals, Appendix C).
 from math import exp, log, sqrt
 
 from saleg.kernel.jit import inline
+from saleg.laws.choice import any_of, where
 
 # Relative pressure difference below which the flow follows a cubic in place of the square root,
 # whose slope is infinite at rest: value and slope meet there.
@@ -20,13 +21,15 @@ NEVER_CHOKED = 0.65
 def flow_function(ratio, g):
     """Dimensionless flow psi [-] at a pressure ratio of at most 1, `g` the ratio of heats."""
     r = min(ratio, 1.0 - NEARLY_EQUAL)
-    if r < NEVER_CHOKED:
-        r = max(r, exp(g / (g - 1.0) * log(2.0 / (g + 1.0))))
+    may_choke = r < NEVER_CHOKED
+    if any_of(may_choke):
+        r = where(may_choke, max(r, exp(g / (g - 1.0) * log(2.0 / (g + 1.0)))), r)
     a = exp(log(r) / g)
     psi = sqrt(2.0 * g / (g - 1.0) * a * (a - r))
-    if ratio > 1.0 - NEARLY_EQUAL:
+    rests = ratio > 1.0 - NEARLY_EQUAL
+    if any_of(rests):
         s = (1.0 - ratio) / NEARLY_EQUAL
-        psi *= s * (1.25 - 0.25 * s * s)
+        psi *= where(rests, s * (1.25 - 0.25 * s * s), 1.0)
     return psi
 
 

@@ -265,6 +265,7 @@ CHAMBER_RECORD = np.dtype(
             "p_closing",
             "T_closing",
             "V_closing",
+            "time_to_dead_centre",
             "t_ignition",
             "t_end",
             "duration",
@@ -309,6 +310,11 @@ CHAMBER_RECORD = np.dtype(
     # Way by which the spark comes earlier for the charge in it and for the next one; pressure at
     # the midpoint to which a bounce chamber is to be filled, 0 for none.
     + [(name, np.float64) for name in ("spark_advance", "next_spark_advance", "wanted_pressure")]
+    # Whether its gas changes with its composition, and the specific gas constants of its parts.
+    + [
+        (name, np.float64)
+        for name in ("follows", "fuel_constant", "air_constant", "burnt_constant")
+    ]
     # Fuel metered to the coming charge over that commanded.
     + [("fuel_factor", np.float64)]
 )

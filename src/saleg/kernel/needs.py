@@ -8,6 +8,8 @@ from saleg.kernel.layout import N_ALL
 
 MOTORED_PRESSURE_IS_WANTED = True
 CURRENT_IS_WANTED = True
+# Whether the gas of a chamber changes with its composition.
+COMPOSITION_IS_WANTED = True
 CONTENTS_ARE_WANTED = True
 WALL_TEMPERATURE_IS_WANTED = True
 CRANKCASE_IS_WANTED = True

@@ -36,6 +36,7 @@ from saleg.kernel.layout import (
     X,
 )
 from saleg.kernel.needs import (
+    COMPOSITION_IS_WANTED,
     CONTENTS_ARE_WANTED,
     CRANKCASE_IS_WANTED,
     WALL_TEMPERATURE_IS_WANTED,
@@ -44,7 +45,9 @@ from saleg.kernel.slots import (
     gas_exchange_areas,
     gas_exchange_exhaust,
     gas_exchange_fresh_share,
+    gas_properties_energy_of,
     gas_properties_gamma,
+    gas_properties_heat_capacity_of,
     gas_properties_internal_energy,
     leak_area,
     leak_beyond,
@@ -53,6 +56,7 @@ from saleg.kernel.slots import (
     supply_volume,
     wall_temperature_rate,
 )
+from saleg.laws.arguments import Parts
 
 # Internal energies of a chamber that breathes and of its crankcase [J] stand where the integrator
 # has logarithms of their pressures, all other states where it has them too.
@@ -103,6 +107,55 @@ def mass_in(C, side, y):
     if is_open_system(C, side):
         return y[FUEL + side] + y[AIR + side] + y[BURNT + side]
     return C[side].mass
+
+
+@inline
+def follows_composition(C, side):
+    """Whether the gas of a chamber is the sum of what stands in it."""
+    return COMPOSITION_IS_WANTED and C[side].follows > 0.0
+
+
+@inline
+def parts_in(y, side):
+    """Fuel, air and burnt gas in a chamber, or their rates."""
+    return Parts(y[FUEL + side], y[AIR + side], y[BURNT + side])
+
+
+@inline
+def mass_times_constant(C, side, y):
+    """Mass of the gas in a chamber times its gas constant [J/K]."""
+    if not follows_composition(C, side):
+        return mass_in(C, side, y) * C[side].gas_constant
+    parts, c = parts_in(y, side), C[side]
+    burnt = parts.burnt * c.burnt_constant
+    return parts.fuel * c.fuel_constant + parts.air * c.air_constant + burnt
+
+
+@inline
+def ratio_of_heats(P, C, side, y, T):
+    """Ratio of specific heats of the gas in a chamber."""
+    if not follows_composition(C, side):
+        return gas_properties_gamma(P, side, T)
+    heat_capacity = gas_properties_heat_capacity_of(P, side, T, parts_in(y, side))
+    return 1.0 + mass_times_constant(C, side, y) / heat_capacity
+
+
+@inline
+def temperature_in(P, C, side, y):
+    """Temperature in a chamber, of its energy and its contents [K]; 0 for none that a gas has."""
+    if not follows_composition(C, side):
+        u = y[ENERGY + side] / mass_in(C, side, y)
+        return temperature_at(P, side, u, C[side].gas_constant)
+    parts, T = parts_in(y, side), 1000.0
+    for _ in range(50):
+        lacking = y[ENERGY + side] - gas_properties_energy_of(P, side, T, parts)
+        change = lacking / gas_properties_heat_capacity_of(P, side, T, parts)
+        T = max(T + change, 0.1 * T)
+        if abs(change) <= 1e-14 * T:
+            return T
+        if T < COLDEST:
+            return 0.0
+    return T
 
 
 @inline

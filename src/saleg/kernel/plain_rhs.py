@@ -39,13 +39,17 @@ from saleg.kernel.plain_breathing import (
     ENERGY,
     burn,
     exchange_gas,
+    follows_composition,
     has_crankcase,
     has_real_crankcase,
     is_held_open,
     is_open_system,
     mass_in,
+    mass_times_constant,
+    parts_in,
     push_of_crankcase,
-    temperature_at,
+    ratio_of_heats,
+    temperature_in,
     wall_temperature_of,
     warm_wall,
 )
@@ -56,7 +60,9 @@ from saleg.kernel.slots import (
     frame_acceleration,
     frame_loss,
     friction_force,
+    gas_properties_energy_of,
     gas_properties_gamma,
+    gas_properties_heat_capacity_of,
     gas_properties_internal_energy,
     heat_release_burn_rate,
     heat_transfer_coefficient,
@@ -86,9 +92,8 @@ def pressure_in(P, C, side, y):
         return y[PRESSURE + side]
     if is_held_open(C, side):
         return c.intake_pressure
-    mass, volume = mass_in(C, side, y), c.area * (c.half_stroke + c.sign * y[POSITION])
-    T = temperature_at(P, side, y[ENERGY + side] / mass, c.gas_constant)
-    return mass * c.gas_constant * T / volume
+    volume = c.area * (c.half_stroke + c.sign * y[POSITION])
+    return mass_times_constant(C, side, y) * temperature_in(P, C, side, y) / volume
 
 
 @inline
@@ -100,7 +105,7 @@ def gas_in(E, C, side, y, p):
     has_motored = E.motored == 1.0 and c.mode != OPEN
     return Gas(
         p=p,
-        T=p * volume / (mass_in(C, side, y) * c.gas_constant),
+        T=p * volume / mass_times_constant(C, side, y),
         V=volume,
         p_motored=y[MOTORED_PRESSURE + side] if has_motored else p,
         clearance=clearance,
@@ -129,6 +134,7 @@ def charge_in(E, C, side, y):
         V=c.V_closing,
         swept_volume=c.area * E.stroke,
         spark_advance=0.0,  # nobody commands
+        time_to_dead_centre=c.time_to_dead_centre,
     )
 
 
@@ -154,9 +160,8 @@ def heat_from_fuel(P, C, side, t, y):
 
 
 @inline
-def pressure_rate(P, side, gas, volume_rate, heat_rate):
+def pressure_rate(g, gas, volume_rate, heat_rate):
     """Rate of the pressure [Pa/s]: Eq. 48, signs corrected."""
-    g = gas_properties_gamma(P, side, gas.T)
     return -g * gas.p / gas.V * volume_rate + (g - 1.0) / gas.V * heat_rate
 
 
@@ -167,6 +172,12 @@ def pressure_rate_in(P, C, side, gas, y, dy):
         return dy[PRESSURE + side]
     if is_held_open(C, side):
         return 0.0
+    if follows_composition(C, side):
+        heat_capacity = gas_properties_heat_capacity_of(P, side, gas.T, parts_in(y, side))
+        own = gas_properties_energy_of(P, side, gas.T, parts_in(dy, side))
+        warming = (dy[ENERGY + side] - own) / heat_capacity
+        moles = mass_times_constant(C, side, dy) / mass_times_constant(C, side, y)
+        return gas.p * (moles + warming / gas.T - gas.clearance_rate / gas.clearance)
     c = C[side]
     mass = mass_in(C, side, y)
     gain = dy[FUEL + side] + dy[AIR + side] + dy[BURNT + side]
@@ -187,7 +198,8 @@ def work_on_gas(P, E, C, side, t, y, p, dy):
         exchange_gas(P, C, side, gas, y, dy)
         burn(C, side, released, dy)
     else:
-        dy[PRESSURE + side] = pressure_rate(P, side, gas, volume_rate, released - lost)
+        g = ratio_of_heats(P, C, side, y, gas.T)
+        dy[PRESSURE + side] = pressure_rate(g, gas, volume_rate, released - lost)
     warm_wall(P, C, side, lost, y, dy)
     dy[QUADRATURES + HEAT_LOST + side] = lost
     dy[QUADRATURES + HEAT_RELEASED + side] = released
@@ -197,7 +209,8 @@ def work_on_gas(P, E, C, side, t, y, p, dy):
     if E.motored == 1.0 and C[side].mode != OPEN:
         cold = motored_gas(gas, gas.T * gas.p_motored / gas.p)
         lost = heat_to_wall(P, side, cold, charge)
-        dy[MOTORED_PRESSURE + side] = pressure_rate(P, side, cold, volume_rate, -lost)
+        g = ratio_of_heats(P, C, side, y, cold.T)
+        dy[MOTORED_PRESSURE + side] = pressure_rate(g, cold, volume_rate, -lost)
 
 
 @inline

@@ -13,9 +13,13 @@ from saleg.kernel.breathing import (
     by_flow,
     chamber_flows,
     crankcase_force,
+    follows,
+    gamma_of,
     has_own_pressure,
+    mass_gas_of,
     mass_of,
     no_flows,
+    rate_by_composition,
     wall_of,
     write_contents,
 )
@@ -55,6 +59,7 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.logarithms import Logarithms
 from saleg.kernel.needs import (
+    COMPOSITION_IS_WANTED,
     CONTENTS_ARE_WANTED,
     CRANKCASE_IS_WANTED,
     CURRENT_IS_WANTED,
@@ -76,7 +81,6 @@ from saleg.kernel.slots import (
     friction_force,
     gas_exchange_next_breakpoint,
     gas_properties_breakpoint,
-    gas_properties_gamma,
     heat_release_burn_rate,
     heat_release_next_breakpoint,
     heat_transfer_coefficient,
@@ -106,7 +110,7 @@ def ln_clearance_of(C, side, x):
 def ln_mass_gas_of(C, side, y):
     """Natural logarithm of mass times gas constant [J/K]."""
     if breathes(C, side):
-        return log(mass_of(C, side, y) * C[side].gas_constant)
+        return log(mass_gas_of(C, side, y))
     return C[side].ln_mass_gas
 
 
@@ -114,7 +118,7 @@ def ln_mass_gas_of(C, side, y):
 def per_mass_gas_of(C, side, y):
     """One over mass times gas constant [K/J]."""
     if breathes(C, side):
-        return 1.0 / (mass_of(C, side, y) * C[side].gas_constant)
+        return 1.0 / mass_gas_of(C, side, y)
     return C[side].per_mass_gas
 
 
@@ -182,6 +186,7 @@ def charge_of(E, C, side, y):
         V=c.V_closing,
         swept_volume=c.area * E.stroke,
         spark_advance=c.spark_advance,
+        time_to_dead_centre=c.time_to_dead_centre,
     )
 
 
@@ -209,9 +214,8 @@ def heat_release(P, C, side, t, y):
 
 
 @inline
-def theta_rate(P, side, gas, clearance_rate, heat):
-    """Rate of theta [1/s]: Eq. 48, signs corrected, with Eq. 49."""
-    g = gas_properties_gamma(P, side, gas.T)
+def theta_rate(g, gas, clearance_rate, heat):
+    """Rate of theta [1/s]: Eq. 48, signs corrected."""
     per_pV = 1.0 / (gas.p * gas.V)  # before heat and g are known: a division takes its time
     growth = clearance_rate / gas.clearance
     return (G0 - g) * growth + (g - 1.0) * (heat * per_pV)
@@ -247,7 +251,7 @@ def chamber_rates(P, E, C, side, t, y, motored):
     c = C[side]
     p, own = c.intake_pressure, has_own_pressure(C, side)
     rate, ignition, motored_rate, released, lost = 0.0, 0.0, 0.0, 0.0, 0.0
-    flows = no_flows()
+    flows = no_flows(C, side)
     if any_of(own):
         clearance_rate = c.sign * y[V]
         ln_clearance = ln_clearance_of(C, side, y[X])
@@ -265,7 +269,10 @@ def chamber_rates(P, E, C, side, t, y, motored):
         ln_mass_gas = ln_mass_gas_of(C, side, y)
         logarithms = logarithms_of(C, side, ln_clearance, ln_p, ln_mass_gas, heat_constants)
         heat_lost = heat_loss(P, C, side, gas, charge, logarithms)
-        rate_own = theta_rate(P, side, gas, clearance_rate, heat_released - heat_lost)
+        g = gamma_of(P, C, side, y, gas.T)
+        rate_own = theta_rate(g, gas, clearance_rate, heat_released - heat_lost)
+        if COMPOSITION_IS_WANTED and follows(C, side) and heat_released > 0.0:
+            rate_own += rate_by_composition(P, C, side, y, gas, g, heat_released)
         if CONTENTS_ARE_WANTED and breathes(C, side):
             flows = chamber_flows(P, C, side, y, gas)
             rate_own += flows.ln_p
@@ -284,7 +291,8 @@ def chamber_rates(P, E, C, side, t, y, motored):
                 C, side, ln_clearance, ln_p_motored, ln_mass_gas, heat_constants
             )
             cooled = heat_loss(P, C, side, cold, charge, logarithms)
-            cold_rate = theta_rate(P, side, cold, clearance_rate, -cooled)
+            g = gamma_of(P, C, side, y, cold.T)
+            cold_rate = theta_rate(g, cold, clearance_rate, -cooled)
             motored_rate = where(c.mode == OPEN, 0.0, cold_rate)
         p, rate = where(own, p_own, p), where(own, rate_own, 0.0)
         released, lost = where(own, heat_released, 0.0), where(own, heat_lost, 0.0)

@@ -16,6 +16,7 @@ from saleg.laws.arguments import (
     Gas,
     Instant,
     Motion,
+    Parts,
     Signals,
     Stroke,
 )
@@ -38,6 +39,16 @@ def gas_properties_internal_energy(P: Any, side: int, T: float) -> float:
 def gas_properties_breakpoint(P: Any, side: int) -> float:
     """Temperature at which gamma is not smooth."""
     return _chamber(P, side).gas_properties.breakpoint()
+
+
+def gas_properties_heat_capacity_of(P: Any, side: int, T: float, parts: Parts) -> float:
+    """Heat capacity of parts of the gas."""
+    return _chamber(P, side).gas_properties.heat_capacity_of(T, parts)
+
+
+def gas_properties_energy_of(P: Any, side: int, T: float, parts: Parts) -> float:
+    """Internal energy of parts of the gas, or its rate."""
+    return _chamber(P, side).gas_properties.energy_of(T, parts)
 
 
 def heat_transfer_coefficient(
@@ -96,6 +107,11 @@ def ignition_lights_at_dead_centre(P: Any, side: int, charge: Charge) -> float:
 def misfires_happens(P: Any, side: int, charge_number: float) -> float:
     """Whether a charge fails to light."""
     return _chamber(P, side).misfires.happens(charge_number)
+
+
+def completeness_share(P: Any, side: int, gas: Gas, charge: Charge) -> float:
+    """Share of the fuel that burns."""
+    return _chamber(P, side).completeness.share(gas, charge)
 
 
 def gas_exchange_charge(

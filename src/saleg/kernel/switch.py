@@ -1,14 +1,20 @@
 """Changes at an event: modes switch, charges are composed, regulators act."""
 
-from math import isfinite, log
+from math import inf, isfinite, log
 
 from saleg.kernel.breathing import (
     breathes,
     by_flow,
     crankcase_of,
+    energy_of,
+    follows,
+    gamma_of,
+    has_crankcase,
     has_own_pressure,
+    mass_gas_of,
     mass_of,
     take_contents,
+    weighted,
 )
 from saleg.kernel.control import ask, obey, pressure_at_midpoint
 from saleg.kernel.events import pressure_and_temperature
@@ -77,14 +83,14 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.needs import CONTENTS_ARE_WANTED, CRANKCASE_IS_WANTED, FRAME_IS_WANTED
+from saleg.kernel.needs import CONTENTS_ARE_WANTED, FRAME_IS_WANTED
 from saleg.kernel.rhs import charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
+    completeness_share,
     frame_energy,
     friction_at_dead_centre,
     gas_exchange_charge,
-    gas_properties_gamma,
     gas_properties_internal_energy,
     heat_release_burnt_fraction,
     heat_release_duration,
@@ -96,11 +102,13 @@ from saleg.kernel.slots import (
     springs_energy,
 )
 from saleg.kernel.state import begin_stroke, clearance_of
-from saleg.laws.arguments import Motion, Stroke
+from saleg.laws.arguments import Motion, Parts, Stroke
 from saleg.laws.choice import where
 
 # Longest first step of a combustion, over its duration.
 FIRST_OF_BURN = 0.1
+# Rounds in which the mass of a charge whose gas depends on its composition is found to rounding.
+MASS_ITERATIONS = 12
 
 
 @inline
@@ -147,9 +155,9 @@ def internal_energy(P, C, side, y):
     T = c.T_closing
     if has_own_pressure(C, side):
         _, T = pressure_and_temperature(C, side, y)
-    energy = mass_of(C, side, y) * gas_properties_internal_energy(P, side, T)
-    if CRANKCASE_IS_WANTED and y[CRANKCASE_MASS + side] > 0.0:
-        _, T = crankcase_of(P, C, side, y)
+    energy = energy_of(P, C, side, y, T)
+    if has_crankcase(y, side):
+        T = crankcase_of(P, C, side, y).T
         energy += y[CRANKCASE_MASS + side] * gas_properties_internal_energy(P, side, T)
     return energy
 
@@ -159,7 +167,8 @@ def ignite(P, E, C, side, y, motored):
     """Start of combustion: the charge burns as far as fuel and air allow (Eq. 53)."""
     c = C[side]
     gas = gas_of(E, C, side, y, motored)
-    c.duration = heat_release_duration(P, side, gas, charge_of(E, C, side, y))
+    charge = charge_of(E, C, side, y)
+    c.duration = heat_release_duration(P, side, gas, charge)
     c.duration *= scatter_duration_factor(P, c.charge_number, 1.0 * side)
     c.mode = BURNING
     c.armed = DISARMED
@@ -167,31 +176,32 @@ def ignite(P, E, C, side, y, motored):
     c.t_end = E.t + c.duration
     if c.duration > 0.0:
         E.next_step = min(E.next_step, FIRST_OF_BURN * c.duration)
-    c.fuel_to_burn = c.combustion_efficiency * min(c.fuel, c.air / c.air_fuel_ratio)
+    share = c.combustion_efficiency * completeness_share(P, side, gas, charge)
+    c.fuel_to_burn = share * min(c.fuel, c.air / c.air_fuel_ratio)
     c.mass_lit = mass_of(C, side, y)
     c.ignition_time = E.t
     c.ignition_height = gas.clearance
     if c.duration <= 0.0:
-        burn_at_once(P, C, side, y, gas.T)
-        burn_contents(P, E, C, side)
+        burn_at_once(P, E, C, side, y, gas.T)
         c.mode = CLOSED
-        put_contents(C, side, y)
 
 
 @compiled
-def burn_at_once(P, C, side, y, T):
+def burn_at_once(P, E, C, side, y, T):
     """Release all heat at constant volume: internal energy and temperature (by Newton) jump."""
     c = C[side]
     heat = c.fuel_to_burn * c.lower_heating_value * heat_release_burnt_fraction(P, side, 1.0)
-    wanted = gas_properties_internal_energy(P, side, T) + heat / c.mass
-    hot = T
+    wanted, cold = energy_of(P, C, side, y, T) + heat, mass_gas_of(C, side, y) * T
+    burn_contents(P, E, C, side)
+    put_contents(C, side, y)
+    hot, mass_gas = T, mass_gas_of(C, side, y)
     for _ in range(50):
-        excess = gas_properties_internal_energy(P, side, hot) - wanted
-        change = excess * (gas_properties_gamma(P, side, hot) - 1.0) / c.gas_constant
+        excess = energy_of(P, C, side, y, hot) - wanted
+        change = excess * (gamma_of(P, C, side, y, hot) - 1.0) / mass_gas
         hot -= change
         if abs(change) <= 1e-15 * hot:
             break
-    y[THETA + side] += log(hot / T)
+    y[THETA + side] += log(hot * mass_gas / cold)
     y[N_STATE + HEAT_RELEASED + side] += heat
 
 
@@ -246,11 +256,11 @@ def open_ports(P, E, C, side, y):
 def close_ports(P, E, C, side, y):
     """Compose the fresh charge and begin to compress it."""
     if by_flow(C, side):
-        trap_charge(P, C, side, y)
+        trap_charge(P, E, C, side, y)
         return
     before = internal_energy(P, C, side, y)
     c = C[side]
-    compose_charge(P, C, side, y, c.intake_pressure, c.intake_temperature)
+    compose_charge(P, E, C, side, y, c.intake_pressure, c.intake_temperature)
     c.exhaust_energy += before - internal_energy(P, C, side, y)
 
 
@@ -278,13 +288,13 @@ def renew_charge(P, E, C, side, y):
     volume_ratio = c.half_stroke / clearance_of(C, side, y[X])
     p = c.intake_pressure * volume_ratio**c.curve_exponent
     T = c.intake_temperature * volume_ratio ** (c.curve_exponent - 1.0)
-    compose_charge(P, C, side, y, p, T)
+    compose_charge(P, E, C, side, y, p, T)
     c.renewal_due = 0.0
     c.exhaust_energy += before - internal_energy(P, C, side, y)
 
 
 @compiled
-def compose_charge(P, C, side, y, p, T):
+def compose_charge(P, E, C, side, y, p, T):
     """Compose a fresh charge at a pressure and a temperature from the contents of the chamber."""
     c = C[side]
     clearance = clearance_of(C, side, y[X])
@@ -292,34 +302,44 @@ def compose_charge(P, C, side, y, p, T):
     mass = p * volume / (c.gas_constant * T)
     wanted = c.equivalence_ratio_wanted
     wanted *= scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
-    fuel, air, burnt, fresh = gas_exchange_charge(
-        P, side, mass, c.fuel, c.air, c.burnt, wanted, c.air_fuel_ratio
-    )
+    fuel, air, burnt, fresh = metered(P, C, side, mass, wanted)
+    if follows(C, side):  # what a volume holds depends on what it is
+        for _ in range(MASS_ITERATIONS):
+            mass *= p * volume / (T * weighted(C, side, Parts(fuel, air, burnt)))
+            fuel, air, burnt, fresh = metered(P, C, side, mass, wanted)
     c.fresh_fuel_energy += fresh * c.lower_heating_value
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
     c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
-    arm_charge(P, C, side, y, p, T, volume)
+    arm_charge(P, E, C, side, y, p, T, volume)
     put_contents(C, side, y)
     y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
 
 
 @inline
-def trap_charge(P, C, side, y):
+def metered(P, C, side, mass, wanted):
+    """Charge of a mass from what a chamber holds: fuel, air, burnt gas, fresh fuel [kg]."""
+    c = C[side]
+    return gas_exchange_charge(P, side, mass, c.fuel, c.air, c.burnt, wanted, c.air_fuel_ratio)
+
+
+@inline
+def trap_charge(P, E, C, side, y):
     """Close the ports on what has flowed in and what is left."""
     c = C[side]
     p, T = pressure_and_temperature(C, side, y)
     c.fresh = y[FRESH + side]
-    arm_charge(P, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
+    arm_charge(P, E, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
     y[MOTORED + side] = y[THETA + side]
 
 
 @inline
-def arm_charge(P, C, side, y, p, T, volume):
+def arm_charge(P, E, C, side, y, p, T, volume):
     """Take a charge for the one now trapped at a pressure, a temperature and a volume."""
     c = C[side]
     c.equivalence_ratio = c.fuel * c.air_fuel_ratio / max(c.air, 1e-300)
     c.p_closing, c.T_closing, c.V_closing = p, T, volume
+    c.time_to_dead_centre = E.t_dead_centre + last_duration(E) - E.t
     c.mode = CLOSED
     c.spark_advance = c.next_spark_advance
     c.charge_number += 1.0
@@ -327,6 +347,12 @@ def arm_charge(P, C, side, y, p, T, volume):
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
     y[IGNITION + side] = 1.0 - scatter_delay_factor(P, c.charge_number, 1.0 * side)
+
+
+@inline
+def last_duration(E):
+    """Duration of the stroke before the present one [s]; infinite if there was none."""
+    return E.stroke / E.mean_piston_speed if E.mean_piston_speed > 0.0 else inf
 
 
 @compiled
@@ -390,6 +416,8 @@ def write_passed(C, side, y, row):
     row.exhaust_energy[side] += y[ENTHALPY_OUT + side]
     row.fresh_mass[side] = c.fresh
     row.closing_mass[side] = c.p_closing * c.V_closing / (c.gas_constant * c.T_closing)
+    if follows(C, side):  # its mass does not change
+        row.closing_mass[side] = c.mass
     row.closing_temperature[side] = c.T_closing
     row.supplied_mass[side] = y[SUPPLIED + side]
     row.expelled_mass[side] = y[EXPELLED + side]

@@ -17,11 +17,13 @@ from saleg.laws.arguments import (
     Gas,
     Instant,
     Motion,
+    Parts,
     Signals,
     Stroke,
 )
 from saleg.laws.base import (
     Alternator,
+    Completeness,
     FlowExchange,
     Frame,
     Friction,
@@ -40,6 +42,7 @@ from saleg.laws.base import (
     Wall,
 )
 from saleg.laws.choice import any_of, where
+from saleg.laws.completeness import CompleteCombustion, CompletenessByRatio
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     ActuatorLaw,
@@ -71,7 +74,7 @@ from saleg.laws.friction import (
     ViscousFriction,
 )
 from saleg.laws.gas_exchange import InstantExchange, PortFlow
-from saleg.laws.gas_properties import ChangGas, ConstantGamma, MixtureGas
+from saleg.laws.gas_properties import BurningGas, ChangGas, ConstantGamma, MixtureGas
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
     Annand,
@@ -89,6 +92,7 @@ from saleg.laws.ignition import (
     RCMIgnitionPascal,
     SparkAfterDelay,
     SparkAtClearance,
+    SparkBeforeDeadCentre,
     TabulatedDelay,
 )
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
@@ -116,12 +120,16 @@ __all__ = [
     "Annand",
     "BlairViscousFriction",
     "BurnProfile",
+    "BurningGas",
     "CFRIgnition",
     "Chang",
     "ChangGas",
     "Charge",
     "CircuitAlternator",
     "Commands",
+    "CompleteCombustion",
+    "Completeness",
+    "CompletenessByRatio",
     "CompressionThreshold",
     "ConstantForce",
     "ConstantFriction",
@@ -185,6 +193,7 @@ __all__ = [
     "NoMisfires",
     "NoScatter",
     "OneSidedSprings",
+    "Parts",
     "PhaseLockedMotor",
     "Plenum",
     "PolytropicLoss",
@@ -208,6 +217,7 @@ __all__ = [
     "SinusoidalMotor",
     "SparkAfterDelay",
     "SparkAtClearance",
+    "SparkBeforeDeadCentre",
     "Springs",
     "StateLogic",
     "SteadyMotor",

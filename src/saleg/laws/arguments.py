@@ -61,6 +61,9 @@ class Charge(NamedTuple):
         Volume swept by the latest stroke [m^3].
     spark_advance : float
         Way by which a controller has the spark come earlier [m].
+    time_to_dead_centre : float
+        Time from port closing to the dead centre, if the present stroke lasts as long as the one
+        before it did [s]; infinite while none has been.
     """
 
     mass: float
@@ -73,6 +76,21 @@ class Charge(NamedTuple):
     V: float
     swept_volume: float
     spark_advance: float = 0.0
+    time_to_dead_centre: float = math.inf
+
+
+class Parts(NamedTuple):
+    """Parts of a gas, or their changes.
+
+    Attributes
+    ----------
+    fuel, air, burnt : float
+        Masses of fuel, air and stoichiometric burnt gas [kg], or their rates [kg/s].
+    """
+
+    fuel: float
+    air: float
+    burnt: float
 
 
 class Motion(NamedTuple):

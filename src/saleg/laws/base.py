@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import ClassVar, NamedTuple
 
-from saleg.laws.arguments import Charge, Gas, Motion, Stroke
+from saleg.laws.arguments import Charge, Gas, Motion, Parts, Stroke
 from saleg.quantities import Quantities
 
 
@@ -58,6 +58,9 @@ class Law(Quantities):
         States of a chamber that the law asks for, by the names in
         :data:`saleg.kernel.layout.CHAMBER_STATES`: they are integrated then. Without one that asks
         they cost nothing.
+    derived : tuple of str
+        Properties that are series of numbers which follow from its own (``cached_property``), such
+        as their logarithms: they are computed once and stand beside its numbers, compiled too.
     """
 
     slot: ClassVar[str] = ""
@@ -68,6 +71,7 @@ class Law(Quantities):
     earlier_names: ClassVar[dict[str, str]] = {}
     mirrors: ClassVar[bool] = False
     states: ClassVar[tuple[str, ...]] = ()
+    derived: ClassVar[tuple[str, ...]] = ()
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -77,11 +81,23 @@ class Law(Quantities):
 
 
 class GasProperties(Law):
-    """Caloric properties of the ideal gas in a chamber; needs a field ``gas_constant`` [J/kg/K]."""
+    """Caloric properties of the ideal gas in a chamber; needs a field ``gas_constant`` [J/kg/K].
+
+    One gas for the whole cycle; or, of a law that follows the composition, the sum of fuel, air and
+    burnt gas as they stand in the chamber. That one asks for the state "contents" and has
+    :meth:`heat_capacity_of`, :meth:`energy_of` and :attr:`gas_constants` as well; gamma and
+    internal energy are then those of a fresh charge, for what happens before a run.
+
+    Attributes
+    ----------
+    follows_composition : bool
+        Whether it does.
+    """
 
     slot = "gas_properties"
-    compiled = ("gamma", "internal_energy", "breakpoint")
-    optional = ("breakpoint",)
+    compiled = ("gamma", "internal_energy", "breakpoint", "heat_capacity_of", "energy_of")
+    optional = ("breakpoint", "heat_capacity_of", "energy_of")
+    follows_composition: ClassVar[bool] = False
     earlier_names: ClassVar[dict[str, str]] = {"kink": "breakpoint"}
 
     gas_constant: float
@@ -97,6 +113,23 @@ class GasProperties(Law):
     def breakpoint(self) -> float:
         """Temperature at which gamma is not smooth [K], so that steps end there; 0 for none."""
         return 0.0
+
+    def heat_capacity_of(self, T: float, parts: Parts) -> float:
+        """Heat capacity of parts of the gas at constant volume [J/K], the sum over them."""
+        return 0.0
+
+    def energy_of(self, T: float, parts: Parts) -> float:
+        """Internal energy of parts of the gas [J], or its rate [W]: the sum over them.
+
+        Of each it is the enthalpy above the temperature at which the heating value is told, less
+        ``R T``; so the heating value is all that combustion adds.
+        """
+        return 0.0
+
+    @property
+    def gas_constants(self) -> tuple[float, float, float]:
+        """Specific gas constants of fuel, air and burnt gas [J/kg/K]."""
+        return (self.gas_constant,) * 3
 
 
 class HeatTransfer(Law):
@@ -176,6 +209,21 @@ class Misfires(Law):
         charge_number : float
             Charges of this cylinder composed so far, this one included [-]; the one the run
             starts with is number 0.
+        """
+        raise NotImplementedError
+
+
+class Completeness(Law):
+    """Completeness of the combustion: the share of a charge's fuel that can burn."""
+
+    slot = "completeness"
+    compiled = ("share",)
+
+    def share(self, gas: Gas, charge: Charge) -> float:
+        """Share of the fuel that burns [-], asked once, at the start of combustion.
+
+        Of the fuel there is air for, and times the `combustion_efficiency` of the chamber. What
+        does not burn stays in the gas and leaves with the exhaust.
         """
         raise NotImplementedError
 
@@ -444,6 +492,7 @@ CHAMBER_SLOTS: dict[str, type[Law]] = {
         Ignition,
         GasExchange,
         Misfires,
+        Completeness,
         Leak,
         Supply,
         Wall,

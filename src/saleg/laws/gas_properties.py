@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
+from saleg.laws.arguments import Parts
 from saleg.laws.base import GasProperties, Validity
 from saleg.laws.choice import where
 from saleg.laws.usual import GAS_CONSTANT
@@ -41,6 +43,14 @@ def chang_energy(gas_constant: float, T: float) -> float:
 #: Temperature at which the polynomials of a mixture change, and where its energy is zero [K].
 POLYNOMIALS_CHANGE = 1000.0
 STANDARD = 298.15
+
+#: Coefficients below and above that temperature of methane, dry air and what they burn to.
+METHANE_LOW = (5.149876, -0.01367098, 4.918006e-05, -4.84743e-08, 1.66694e-11)
+METHANE_HIGH = (1.635526, 0.01008428, -3.369163e-06, 5.349587e-10, -3.155188e-14)
+AIR_LOW = (3.583831, -0.0007272478, 1.671434e-06, -1.101983e-10, -4.313878e-13)
+AIR_HIGH = (3.101397, 0.001241326, -4.187909e-07, 6.641169e-11, -3.912507e-15)
+BURNT_LOW = (3.546313, 0.0003784979, 2.029169e-07, 9.312501e-10, -6.838415e-13)
+BURNT_HIGH = (3.06027, 0.001824371, -5.939124e-07, 8.938404e-11, -4.976032e-15)
 
 
 def polynomial(a: Sequence[float], T: float) -> float:
@@ -164,3 +174,73 @@ class MixtureGas(GasProperties):
         if T > POLYNOMIALS_CHANGE:
             total += integral(self.high, T) - integral(self.high, POLYNOMIALS_CHANGE)
         return self.gas_constant * (total - (T - STANDARD))
+
+
+def heat_capacity(low: Sequence[float], high: Sequence[float], T: float) -> float:
+    """Heat capacity at constant volume over the gas constant [-]."""
+    return where(T < POLYNOMIALS_CHANGE, polynomial(low, T), polynomial(high, T)) - 1.0
+
+
+def energy(low: Sequence[float], high: Sequence[float], T: float) -> float:
+    """Enthalpy above 298.15 K less ``R T``, over the gas constant [K]."""
+    cold, hot = min(T, POLYNOMIALS_CHANGE), max(T, POLYNOMIALS_CHANGE)
+    rise = integral(low, cold) - integral(low, STANDARD)
+    return rise + integral(high, hot) - integral(high, POLYNOMIALS_CHANGE) - T
+
+
+@dataclass(frozen=True)
+class BurningGas(MixtureGas):
+    """Ideal gas of fuel, air and burnt gas, whose composition follows the combustion.
+
+    Each part is a gas as of :class:`MixtureGas`, and their masses in the chamber weight them: heat
+    capacity, energy and the number of moles change as the charge burns, and with what is retained.
+    :meth:`saleg.fuels.RealFuel.burning_gas` makes it. Chambers let no gas in or out but in an
+    instant: :class:`InstantExchange`, :class:`NoLeak`.
+
+    Parameters
+    ----------
+    gas_constant, low, high : float, tuple of float
+        Of a fresh charge, as of :class:`MixtureGas`, for the start of a run [J/kg/K, -].
+    fuel_constant, air_constant, burnt_constant : float
+        Specific gas constants [J/kg/K].
+    fuel_low, fuel_high, air_low, air_high, burnt_low, burnt_high : tuple of float, shape (5,)
+        Coefficients of the parts below and above 1000 K [-, 1/K, ... 1/K^4].
+    """
+
+    states = ("contents",)
+    follows_composition: ClassVar[bool] = True
+
+    fuel_constant: float = quantity(
+        "J/kg/K", default=518.261, low=0, open_low=True, usual=GAS_CONSTANT
+    )
+    air_constant: float = quantity(
+        "J/kg/K", default=288.187, low=0, open_low=True, usual=GAS_CONSTANT
+    )
+    burnt_constant: float = quantity(
+        "J/kg/K", default=300.884, low=0, open_low=True, usual=GAS_CONSTANT
+    )
+    fuel_low: tuple[float, ...] = series("-", default=METHANE_LOW, at_least=5)
+    fuel_high: tuple[float, ...] = series("-", default=METHANE_HIGH, at_least=5)
+    air_low: tuple[float, ...] = series("-", default=AIR_LOW, at_least=5)
+    air_high: tuple[float, ...] = series("-", default=AIR_HIGH, at_least=5)
+    burnt_low: tuple[float, ...] = series("-", default=BURNT_LOW, at_least=5)
+    burnt_high: tuple[float, ...] = series("-", default=BURNT_HIGH, at_least=5)
+
+    def heat_capacity_of(self, T: float, parts: Parts) -> float:
+        """Heat capacity of parts of the gas at constant volume [J/K]."""
+        fuel = self.fuel_constant * heat_capacity(self.fuel_low, self.fuel_high, T)
+        air = self.air_constant * heat_capacity(self.air_low, self.air_high, T)
+        burnt = self.burnt_constant * heat_capacity(self.burnt_low, self.burnt_high, T)
+        return parts.fuel * fuel + parts.air * air + parts.burnt * burnt
+
+    def energy_of(self, T: float, parts: Parts) -> float:
+        """Enthalpy of parts of the gas above 298.15 K less ``R T`` [J], or its rate [W]."""
+        fuel = self.fuel_constant * energy(self.fuel_low, self.fuel_high, T)
+        air = self.air_constant * energy(self.air_low, self.air_high, T)
+        burnt = self.burnt_constant * energy(self.burnt_low, self.burnt_high, T)
+        return parts.fuel * fuel + parts.air * air + parts.burnt * burnt
+
+    @property
+    def gas_constants(self) -> tuple[float, float, float]:
+        """Specific gas constants of fuel, air and burnt gas [J/kg/K]."""
+        return self.fuel_constant, self.air_constant, self.burnt_constant

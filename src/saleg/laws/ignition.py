@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
 
 from saleg.laws.arguments import Charge, Gas
 from saleg.laws.base import Ignition, Validity
-from saleg.laws.interpolation import interval, share
+from saleg.laws.interpolation import bicubic, cubic_weights, interval, share, slopes
 from saleg.laws.usual import ACTIVATION_ENERGY, GAS_PRESSURE, LENGTH
 from saleg.quantities import quantity, series
 
@@ -181,6 +183,27 @@ class SparkAfterDelay(Ignition):
 
 
 @dataclass(frozen=True)
+class SparkBeforeDeadCentre(Ignition):
+    """A spark some time before the dead centre, which is foreseen from the stroke before.
+
+    No crank tells where the dead centre will be. Counted is from the last one, as if the stroke
+    were to last as long as the one before it; in a steady engine with two equal cylinders it does.
+    A dead centre foreseen nearer than `advance` as the ports close has the spark at once.
+
+    Parameters
+    ----------
+    advance : float
+        Time from the spark to the dead centre foreseen [s].
+    """
+
+    advance: float = quantity("s", default=1e-3, low=0, usual=(1e-5, 0.2))
+
+    def rate(self, gas: Gas, charge: Charge) -> float:
+        """Rate of the ignition integral [1/s]: one over the time from port closing to the spark."""
+        return 1.0 / max(charge.time_to_dead_centre - self.advance, 1e-9)
+
+
+@dataclass(frozen=True)
 class IgnitionAtPressure(Ignition):
     """Ignition at a pressure, as Chapter 2 has it (2.5).
 
@@ -214,8 +237,9 @@ class IgnitionAtDeadCentre(Ignition):
 class TabulatedDelay(Ignition):
     """Ignition delay from a table over pressure, temperature, equivalence ratio and burnt gas.
 
-    The logarithm of the delay is interpolated linearly in that of the pressure, in 1/T, in the
-    equivalence ratio and in the share of burnt gas; beyond the table the value at its border holds.
+    The logarithm of the delay is interpolated by cubics in that of the pressure and in 1/T,
+    linearly in the equivalence ratio and in the share of burnt gas; beyond the table the value at
+    its border holds.
     :func:`saleg.fuels.ignition_delays` has tables from chemistry.
 
     Parameters
@@ -245,38 +269,61 @@ class TabulatedDelay(Ignition):
     )
     burnt_shares: tuple[float, ...] = series("-", default=(0.0,), low=0, high=1, rising=True)
 
+    derived: ClassVar[tuple[str, ...]] = (
+        "ln_pressures",
+        "cold_to_hot",
+        "ln_delays",
+        "pressure_slopes",
+        "temperature_slopes",
+    )
+
+    @cached_property
+    def ln_pressures(self) -> tuple[float, ...]:
+        """Natural logarithms of the pressures."""
+        return tuple(math.log(p) for p in self.pressures)
+
+    @cached_property
+    def cold_to_hot(self) -> tuple[float, ...]:
+        """Temperatures as -1/T [1/K], which rises with them."""
+        return tuple(-1.0 / T for T in self.temperatures)
+
+    @cached_property
+    def ln_delays(self) -> tuple[float, ...]:
+        """Natural logarithms of the delays."""
+        return tuple(math.log(delay) for delay in self.delays)
+
+    @cached_property
+    def pressure_slopes(self) -> tuple[float, ...]:
+        """Slopes of those logarithms over that of the pressure [-]."""
+        step = len(self.temperatures) * len(self.equivalence_ratios)
+        return slopes(self.ln_pressures, self.ln_delays, step)
+
+    @cached_property
+    def temperature_slopes(self) -> tuple[float, ...]:
+        """Slopes of those logarithms over -1/T [K]."""
+        return slopes(self.cold_to_hot, self.ln_delays, len(self.equivalence_ratios))
+
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: one over the delay."""
-        burnt = charge.burnt / charge.mass
+        ln_p, heat, burnt = math.log(gas.p), -1.0 / gas.T, charge.burnt / charge.mass
         h = interval(burnt, self.burnt_shares)
-        i = interval(gas.p, self.pressures)
-        j = interval(gas.T, self.temperatures)
+        i = interval(ln_p, self.ln_pressures)
+        j = interval(heat, self.cold_to_hot)
         k = interval(charge.equivalence_ratio, self.equivalence_ratios)
-        t = share(burnt, self.burnt_shares, h)
-        u = share_of_logarithm(gas.p, self.pressures, i)
-        v = share_of_inverse(gas.T, self.temperatures, j)
-        w = share(charge.equivalence_ratio, self.equivalence_ratios, k)
-        rows, columns = len(self.temperatures), len(self.equivalence_ratios)
-        ln_delay = 0.0
-        for corner in range(16):
-            a, b, c, d = corner // 8, corner // 4 % 2, corner // 2 % 2, corner % 2
-            weight = (t if a else 1.0 - t) * (u if b else 1.0 - u)
-            weight *= (v if c else 1.0 - v) * (w if d else 1.0 - w)
-            if weight > 0.0:
-                entry = ((h + a) * len(self.pressures) + i + b) * rows + j + c
-                ln_delay += weight * math.log(self.delays[entry * columns + k + d])
-        return math.exp(-ln_delay)
-
-
-def share_of_logarithm(x: float, grid: tuple[float, ...], i: int) -> float:
-    """Where ln x lies between the logarithms of an interval's ends, from 0 to 1."""
-    if len(grid) == 1:
-        return 0.0
-    return min(max(math.log(x / grid[i]) / math.log(grid[i + 1] / grid[i]), 0.0), 1.0)
-
-
-def share_of_inverse(x: float, grid: tuple[float, ...], i: int) -> float:
-    """Where 1/x lies between the inverses of an interval's ends, from 0 to 1."""
-    if len(grid) == 1:
-        return 0.0
-    return min(max((1.0 / x - 1.0 / grid[i]) / (1.0 / grid[i + 1] - 1.0 / grid[i]), 0.0), 1.0)
+        richer = share(charge.equivalence_ratio, self.equivalence_ratios, k)
+        diluted = share(burnt, self.burnt_shares, h)
+        column = len(self.equivalence_ratios)
+        row = len(self.temperatures) * column
+        page = len(self.pressures) * row
+        first = h * page + i * row + j * column + k
+        steps = (row if len(self.pressures) > 1 else 0, column if len(self.temperatures) > 1 else 0)
+        over_p = cubic_weights(ln_p, self.ln_pressures, i)
+        over_T = cubic_weights(heat, self.cold_to_hot, j)
+        tables = (self.ln_delays, self.pressure_slopes, self.temperature_slopes)
+        ln_delay = bicubic(tables, first, steps, over_p, over_T)
+        rise = 0.0
+        if richer > 0.0:
+            rise += richer * (bicubic(tables, first + 1, steps, over_p, over_T) - ln_delay)
+        if diluted > 0.0:
+            rise += diluted * (bicubic(tables, first + page, steps, over_p, over_T) - ln_delay)
+        return math.exp(-ln_delay - rise)

@@ -115,3 +115,44 @@ def monotone_slope(x: float, grid: Sequence[float], values: Sequence[float]) -> 
         + w * (w - 2.0 * u) * a
         + u * (u - 2.0 * w) * b
     )
+
+
+def slopes(grid: Sequence[float], values: Sequence[float], step: int) -> tuple[float, ...]:
+    """Slopes at all entries of a table along an axis, whose neighbours are `step` entries apart."""
+    found = []
+    for n in range(len(values)):
+        i = n // step % len(grid)
+        first = n - i * step
+        found.append(slope(grid, values[first : first + len(grid) * step : step], i))
+    return tuple(found)
+
+
+def cubic_weights(x: float, grid: Sequence[float], i: int) -> tuple[float, float, float, float]:
+    """Weights of the values at both ends of an interval and of the slopes there, for a cubic."""
+    if len(grid) == 1:
+        return 1.0, 0.0, 0.0, 0.0
+    u, h = share(x, grid, i), grid[i + 1] - grid[i]
+    w = 1.0 - u
+    return w * w * (1.0 + 2.0 * u), u * u * (1.0 + 2.0 * w), h * u * w * w, -h * u * u * w
+
+
+def bicubic(
+    tables: tuple[Sequence[float], Sequence[float], Sequence[float]],
+    first: int,
+    steps: tuple[int, int],
+    over_x: tuple[float, float, float, float],
+    over_y: tuple[float, float, float, float],
+) -> float:
+    """Cubic interpolation both ways in a cell of a table, without slopes of slopes.
+
+    `tables` are the values and their slopes over x and y, `first` is the entry at the cell's first
+    corner, `steps` lead on from it, and `over_x` and `over_y` are :func:`cubic_weights`.
+    """
+    values, x_slopes, y_slopes = tables
+    total = 0.0
+    for a in range(2):
+        for b in range(2):
+            n = first + a * steps[0] + b * steps[1]
+            total += over_x[a] * (over_y[b] * values[n] + over_y[2 + b] * y_slopes[n])
+            total += over_x[2 + a] * over_y[b] * x_slopes[n]
+    return total

@@ -16,6 +16,7 @@ from saleg.kernel.plain_breathing import (
     volume_of_crankcase,
 )
 from saleg.kernel.plain_rhs import MOTORED_PRESSURE, POSITION, PRESSURE
+from saleg.laws import GasProperties, Parts
 from saleg.reference.states import ChamberState
 
 
@@ -24,7 +25,7 @@ def fill(engine: Engine, chambers: Sequence[ChamberState], y: np.ndarray, side: 
     c, chamber = chambers[side], engine.chambers[side]
     if c.breathes:
         p, volume = float(y[PRESSURE + side]), c.area * (c.half_stroke + c.sign * y[POSITION])
-        T = p * volume / (c.mass * c.gas_constant)
+        T = p * volume / (c.mass * c.constant_now)
         if is_held_open(chambers, side):
             T = c.intake_temperature
         put_state(chamber, c, y, side, p, T)
@@ -42,6 +43,14 @@ def specific_energy(chamber: Chamber, T: float) -> float:
     return float(chamber.gas_properties.internal_energy(T))  # type: ignore[attr-defined]
 
 
+def energy_held(chamber: Chamber, c: ChamberState, T: float) -> float:
+    """Internal energy of what a chamber holds at a temperature [J]."""
+    if c.follows == 0.0:
+        return c.mass * specific_energy(chamber, T)
+    gas: GasProperties = chamber.gas_properties  # type: ignore[attr-defined]
+    return gas.energy_of(T, Parts(c.fuel, c.air, c.burnt))
+
+
 def put_state(
     chamber: Chamber, c: ChamberState, y: np.ndarray, side: int, p: float, T: float
 ) -> None:
@@ -49,7 +58,7 @@ def put_state(
     y[[PRESSURE + side, MOTORED_PRESSURE + side]] = p
     if c.breathes:
         put_masses(c, y, side)
-        y[ENERGY + side] = c.mass * specific_energy(chamber, T)
+        y[ENERGY + side] = energy_held(chamber, c, T)
 
 
 def put_masses(c: ChamberState, y: np.ndarray, side: int) -> None:

@@ -123,8 +123,10 @@ class RunningEngine:
         self = cls(engine, 0.0, y, machine, chambers, totals, x)
         for side in (0, 1):
             fill(engine, chambers, y, side)
-        self._hold(stroke_before(engine, start, self.piston_area))
+        before = stroke_before(engine, start, self.piston_area)
+        self._hold(before)
         for side, held in enumerate(contents):
+            chambers[side].time_to_dead_centre = before.duration
             if held.burning and held.fuel > 0.0:
                 self.ignite(side)
         acceleration = self.rates()[VELOCITY]
@@ -273,9 +275,11 @@ class RunningEngine:
         """Begin to release the heat of what fuel and air can burn."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, CombustionChamber)
-        c.duration = chamber.heat_release.duration(self.gas(side), self.charge(side))
+        gas, charge = self.gas(side), self.charge(side)
+        c.duration = chamber.heat_release.duration(gas, charge)
         c.duration *= self.engine.scatter.duration_factor(c.number, float(side))
         burnable = min(c.fuel, c.air / chamber.fuel.air_fuel_ratio)
+        burnable *= chamber.completeness.share(gas, charge)
         c.heat = chamber.combustion_efficiency * burnable * chamber.fuel.lower_heating_value
         c.mode, c.armed, c.t_ignition, c.mass_lit = layout.BURNING, 0.0, self.t, c.mass
         self.totals[side].ignition_time = self.t
@@ -349,7 +353,7 @@ class RunningEngine:
             return
         p, T = chamber.intake.pressure, chamber.intake.temperature
         before = self.internal_energy(side)
-        c.mass = p * c.area * self.clearance(side) / (c.gas_constant * T)
+        c.mass = self.mass_that_fits(side, p, T)
         self._compose(side, p, T)
         self.totals[side].exhaust_energy += before - self.internal_energy(side)
 
@@ -365,18 +369,44 @@ class RunningEngine:
         if c.breathes:  # what has leaked is made good
             c.mass = c.mass_trapped
         T = p * c.area * self.clearance(side) / (c.mass * c.gas_constant)
+        if c.follows:
+            T = chamber.temperature * (p / chamber.pressure) ** (1.0 - 1.0 / chamber.curve_exponent)
+            c.mass = self.mass_that_fits(side, p, T)
         self._compose(side, p, T)
         self.totals[side].exhaust_energy += before - self.internal_energy(side)
+
+    def mass_that_fits(self, side: int, p: float, T: float) -> float:
+        """Mass of a fresh charge at a pressure and a temperature [kg]."""
+        from scipy.optimize import brentq
+
+        c = self.chambers[side]
+        wanted = p * c.area * self.clearance(side) / T
+        if not c.follows:
+            return wanted / c.gas_constant
+
+        def lacking(mass: float) -> float:
+            fuel, air, burnt, _ = self._metered(side, mass)
+            held = fuel * c.fuel_constant + air * c.air_constant + burnt * c.burnt_constant
+            return held - wanted
+
+        return float(brentq(lacking, 0.0, 2.0 * wanted / c.gas_constant, xtol=1e-19, rtol=1e-14))
+
+    def _metered(self, side: int, mass: float) -> tuple[float, float, float, float]:
+        """Fuel, air, burnt gas and fresh fuel of the coming charge [kg], of a mass."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, CombustionChamber)
+        wanted = chamber.equivalence_ratio
+        wanted *= self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
+        return chamber.gas_exchange.charge(
+            mass, c.fuel, c.air, c.burnt, wanted, chamber.fuel.air_fuel_ratio
+        )
 
     def _compose(self, side: int, p: float, T: float) -> None:
         """Make the charge of what was retained and what is metered now."""
         c, chamber, totals = self.chambers[side], self.engine.chambers[side], self.totals[side]
         assert isinstance(chamber, CombustionChamber)
-        fuel_before, ratio = c.fuel, chamber.fuel.air_fuel_ratio
-        factor = self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
-        c.fuel, c.air, c.burnt, fresh = chamber.gas_exchange.charge(
-            c.mass, c.fuel, c.air, c.burnt, factor * chamber.equivalence_ratio, ratio
-        )
+        fuel_before = c.fuel
+        c.fuel, c.air, c.burnt, fresh = self._metered(side, c.mass)
         put_state(chamber, c, self.y, side, p, T)
         self._trap(side, p, T)
         exhausted = fuel_before + fresh - c.fuel
@@ -390,6 +420,9 @@ class RunningEngine:
         ratio = chamber.fuel.air_fuel_ratio
         c.equivalence_ratio = ratio * c.fuel / c.air if c.fuel > 0.0 else 0.0
         c.p_closing, c.T_closing, c.V_closing = p, T, c.area * self.clearance(side)
+        speed = self.machine.mean_piston_speed
+        lasts = self.machine.stroke / speed if speed > 0.0 else math.inf
+        c.time_to_dead_centre = self.t_dead_centre + lasts - self.t
         c.number += 1.0
         c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:

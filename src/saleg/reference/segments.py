@@ -12,7 +12,7 @@ import numpy as np
 
 from saleg.engine import Engine, OpenEnd
 from saleg.kernel import layout
-from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, is_held_open, mass_in
+from saleg.kernel.plain_breathing import CRANKCASE_ENERGY, is_held_open, mass_times_constant
 from saleg.kernel.plain_rhs import (
     ALTERNATOR_CURRENT,
     INTEGRAL,
@@ -352,8 +352,8 @@ def watched(running: RunningEngine, y: np.ndarray, dy: np.ndarray) -> np.ndarray
         p = pressure_in(running.engine, running.chambers, side, y)
         gas = gas_in(running.machine, running.chambers, side, y, p)
         rise = pressure_rate_in(running.engine, running.chambers, side, gas, y, dy)
-        mass = mass_in(running.chambers, side, y)
-        T = p * c.area * (c.half_stroke + c.sign * y[POSITION]) / (mass * c.gas_constant)
+        volume = c.area * (c.half_stroke + c.sign * y[POSITION])
+        T = p * volume / mass_times_constant(running.chambers, side, y)
         if is_held_open(running.chambers, side):
             T = running.temperature(side)
         values[layout.PEAK_PRESSURE + side] = p

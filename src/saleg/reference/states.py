@@ -68,6 +68,8 @@ class ChamberState:
         The charge [kg]; of all fuel to all air [-].
     p_closing, T_closing, V_closing : float
         Its state at port closing [Pa, K, m^3].
+    time_to_dead_centre : float
+        From there to the dead centre, as the stroke before would have it [s].
     mode : float
         Open, closed or burning.
     armed : float
@@ -107,6 +109,7 @@ class ChamberState:
     V_closing: float
     mode: float
     armed: float
+    time_to_dead_centre: float = math.inf
     t_ignition: float = 0.0
     duration: float = 1.0
     heat: float = 0.0
@@ -126,10 +129,24 @@ class ChamberState:
     fuel_factor: float = 1.0
     mass_lit: float = 1.0
     fresh: float = 0.0
+    follows: float = 0.0
+    fuel_constant: float = 0.0
+    air_constant: float = 0.0
+    burnt_constant: float = 0.0
+
+    @property
+    def constant_now(self) -> float:
+        """Specific gas constant of what stands in the chamber [J/kg/K]."""
+        if self.follows == 0.0:
+            return self.gas_constant
+        fuel, air = self.fuel * self.fuel_constant, self.air * self.air_constant
+        return (fuel + air + self.burnt * self.burnt_constant) / self.mass
 
     @property
     def mass_trapped(self) -> float:
         """Mass of the charge as its ports closed [kg]."""
+        if self.follows > 0.0:  # none comes or goes
+            return self.mass
         return self.p_closing * self.V_closing / (self.gas_constant * self.T_closing)
 
 
@@ -216,6 +233,9 @@ def _chamber_state(chamber: GasChamber, held: Contents, sign: float, x: float) -
 def _let_breathe(c: ChamberState, chamber: Chamber, x: float) -> None:
     """Note which states the laws of a chamber ask for, and what they need."""
     c.breathes = float("contents" in chamber.states)
+    if isinstance(chamber, GasChamber):
+        c.follows = float(chamber.gas_properties.follows_composition)
+        c.fuel_constant, c.air_constant, c.burnt_constant = chamber.gas_properties.gas_constants
     c.crankcase = float("crankcase" in chamber.states)
     c.wall_follows = float("wall_temperature" in chamber.states)
     c.intake_pressure, c.intake_temperature, _ = chamber.reference_state

@@ -201,6 +201,8 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
         x_right=0.5 * start.stroke,
     )
     E.t_sample = math.inf
+    for c in C:
+        c.time_to_dead_centre = guess.duration
     E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)
     E.friction_held = engine.friction.at_dead_centre(-1.0, guess)
     E.current_scale = current_scale(engine.alternator, E.load_weight, E.speed_scale)
@@ -265,7 +267,10 @@ def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
     if isinstance(chamber, GasChamber):
         c.bore = chamber.bore
         c.wall_temperature = chamber.wall_temperature
-        c.gas_constant = chamber.gas_properties.gas_constant
+        gas = chamber.gas_properties
+        c.gas_constant = gas.gas_constant
+        c.follows = float(gas.follows_composition)
+        c.fuel_constant, c.air_constant, c.burnt_constant = gas.gas_constants
     full = chamber.reference_state
     c.p_closing = c.intake_pressure = full.pressure
     c.T_closing = c.intake_temperature = full.temperature

@@ -33,10 +33,12 @@ from saleg.steady.return_map import (
     is_adiabatic,
     is_symmetric,
     longest_return,
+    map_tolerance,
     repeats_itself,
+    step_tolerance,
 )
 from saleg.steady.sealed_gas import rises_of_theta
-from saleg.steady.slow_states import are_near, are_sharp, free_entries
+from saleg.steady.slow_states import are_near, are_sharp, free_entries, has_slow_states
 from saleg.steady.solver import (
     MAX_MAPS,
     MAX_MISSED,
@@ -152,12 +154,12 @@ def lots_to_search(rows: Rows) -> list[tuple[Rows, bool]]:
 
 
 def _can_be_searched(engine: Engine) -> bool:
-    """Whether engines of this make have a return map and laws that can be compiled."""
+    """Whether engines of this make have a return map, laws to compile and no slow states."""
     try:
         engine.validate()
         engine.check_laws()
         check_methods(engine.laws.values())
-        return repeats_itself(engine) and not any(chamber.states for chamber in engine.chambers)
+        return repeats_itself(engine) and not has_slow_states(engine)
     except SalegError:
         return False
 
@@ -261,18 +263,25 @@ class _Search(NamedTuple):
 
     def found(self, lines: Lines) -> tuple[Searches, np.ndarray]:
         """What was found, and whether it is an orbit."""
-        rows, rtol, mirrored, limits = self.rows, self.rtol, self.mirrored, self.limits
+        rows, mirrored, limits = self.rows, self.mirrored, self.limits
+        rtol, one = self.tolerance, rows.row(0)
         states = self.begin.some(np.arange(rows.count))
-        return_map = ReturnMap.of(rows.row(0), states.row(0), rtol, mirrored, limits.most_steps)
+        steps = step_tolerance(one, self.rtol)
+        return_map = ReturnMap.of(one, states.row(0), steps, mirrored, limits.most_steps)
         room = _room(rows, states, lines)
         find_each(return_map, limits.max_maps, RESIDUAL * rtol, room, self.total)
         strokes = room.strokes.reshape(-1, 2)
         good = room.codes == layout.END_OF_TIME
         good &= room.found["missed"] <= limits.missed * rtol
-        good &= are_near(room, mirrored, free_entries(rows.row(0)), NEAR * RESIDUAL * rtol)
+        good &= are_near(room, mirrored, free_entries(one), NEAR * RESIDUAL * rtol)
         good &= are_sharp(room.found["slowness"], imbalance(strokes[:, 1], strokes), rtol)
         _leave_out_changed_entropies(good, rows, self.begin, states, NEAR * RESIDUAL * rtol)
         return room, good
+
+    @property
+    def tolerance(self) -> float:
+        """Tolerance to which a return can be told."""
+        return map_tolerance(self.rows.engine, self.rtol)
 
     def some(self, chosen: np.ndarray) -> _Search:
         """The search for some of them."""
@@ -297,7 +306,7 @@ class _Search(NamedTuple):
         own, own_good = self.some(chosen).found(no_lines(len(chosen)))
         apart = np.abs(own.image - room.image[chosen]).max(axis=1)
         apart_modes = own.chambers["mode"] != room.chambers["mode"].reshape(-1, 2)[chosen].ravel()
-        same = apart <= NEAR * RESIDUAL * self.rtol
+        same = apart <= NEAR * RESIDUAL * self.tolerance
         same &= ~apart_modes.reshape(-1, 2).any(axis=1)
         differs = chosen[(own_good & ~same) | (~own_good & good[chosen])]
         for name in ("engine", "y", "codes", "found", "followed", "point", "residual", "image"):
@@ -315,6 +324,7 @@ class _Search(NamedTuple):
 def verdicts(orbits: Orbits, rtol: float) -> tuple[np.ndarray, np.ndarray]:
     """Status and message of each orbit; most are steady states."""
     rows, strokes = orbits.rows, orbits.strokes
+    rtol = step_tolerance(rows.engine, rtol)
     pairs = zip(orbits.half_cycles.tolist(), orbits.residual.tolist(), strict=True)
     messages = [fixed_point_message(orbits.mirrored, *pair) for pair in pairs]
     statuses = [str(Status.STEADY)] * len(messages)

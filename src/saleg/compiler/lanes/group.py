@@ -32,7 +32,7 @@ def group_of(run: Integration, address: int, width: int) -> Group:
     flat = Flat(*(_as_numbers(part) for part in (runs.laws, runs.engine, runs.chambers, step)))
     stages = len(run.tableau.b)
     records = [part.shape[1] for part in flat[:3]]
-    vectors = [count * layout.N_PLAIN for count in (1, 1, stages + 1)]
+    vectors = [count * layout.N_ALL for count in (1, 1, stages + 1)]
     counts = [*records, *vectors, flat.step.shape[1]]
     rows = Rows(*(np.zeros(count * width) for count in counts))
     fresh, codes = np.zeros(width, np.int64), np.full(width, layout.NOT_FOUND)
