@@ -149,7 +149,7 @@ PARTS = [
 def test_every_part_commands_the_same_compiled(part):
     """The compiled function, called by its address, against the same source run as Python."""
     controller = dataclasses.replace(Controller(), **{part.slot: part()})
-    address, numbers, memory, signals, commands = control_of(controller)
+    address, numbers, memory, signals, commands, _ = control_of(controller)
     python = InPython(controller)
     rng = np.random.default_rng(1)
     was = 0.0

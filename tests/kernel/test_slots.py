@@ -8,9 +8,12 @@ import pytest
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.kernel import slots
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
-from saleg.laws.control.base import CONTROL_SLOTS, ActuatorLaw
+from saleg.laws.control.base import CONTROL_SLOTS, SAMPLED_SLOTS, ActuatorLaw, ConverterLaw
 
-WHOLE_ENGINE = {**ENGINE_SLOTS, **CONTROL_SLOTS, ActuatorLaw.slot: ActuatorLaw}
+#: Those of a controller are compiled apart from the engine.
+OF_A_CONTROLLER = {**CONTROL_SLOTS, **SAMPLED_SLOTS}
+BEFORE_THE_ENGINE = {base.slot: base for base in (ActuatorLaw, ConverterLaw)}
+WHOLE_ENGINE = {**ENGINE_SLOTS, **OF_A_CONTROLLER, **BEFORE_THE_ENGINE}
 
 
 def declared(bases):
@@ -65,7 +68,7 @@ def test_a_function_hands_the_arguments_of_its_method_on(slot, base, method):
 
 def test_composed_functions_take_the_same_number_of_arguments(base):
     module = kernel_for(base).module
-    of_a_controller = {f"{slot}_{method}" for slot, _, method in declared(CONTROL_SLOTS)}
+    of_a_controller = {f"{slot}_{method}" for slot, _, method in declared(OF_A_CONTROLLER)}
     for name in {*calls_of(CHAMBER_SLOTS), *calls_of(WHOLE_ENGINE)} - of_a_controller:
         composed = getattr(module, name).py_func
         assert len(parameters(composed)) == len(parameters(getattr(slots, name))), name

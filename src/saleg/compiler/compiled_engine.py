@@ -24,6 +24,7 @@ from saleg.laws import (
     CFRIgnition,
     ChangGas,
     CompleteCombustion,
+    Converter,
     FixedWall,
     InstantExchange,
     Law,
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
     from saleg.compiler.records import Lengths
     from saleg.engine import Engine
     from saleg.engine.controller import Controller
-    from saleg.laws.control.base import ActuatorLaw
 
 #: What fills the combustion slots of a bounce chamber, which never lights, and all slots of an open
 #: end, which holds no gas.
@@ -56,8 +56,8 @@ IDLE_LAWS: dict[str, Law] = {
     "wall": FixedWall(),
 }
 
-#: Actuators of an engine without a controller; never called.
-IDLE_ACTUATORS = Actuators()
+#: Actuators and converter of an engine without a controller; never called.
+IDLE_COMMANDED: tuple[Law, Law] = Actuators(), Converter()
 
 
 class CompiledEngine(NamedTuple):
@@ -91,9 +91,10 @@ def compiled_engine(
     ----------
     engine : Engine
     controller : Controller, optional
-        Whose actuators stand before the engine.
+        Whose actuators and converter stand before the engine.
     asks : bool
-        Whether the kernel asks the controller at dead centres; if not, its caller does.
+        Whether the kernel asks the controller at dead centres; if not, its caller does. What acts
+        within the stroke is always asked by the kernel.
     modules : tuple of str
         Modules of the kernel.
     motored_pressure : bool
@@ -104,8 +105,8 @@ def compiled_engine(
     LawError
         If a law cannot be compiled, naming it.
     """
-    laws = _laws_in_order(engine, controller.actuators if controller is not None else None)
-    control = control_of(controller) if controller is not None and asks else nobody()
+    laws = _laws_in_order(engine, controller)
+    control = nobody() if controller is None else control_of(controller, asks=asks)
     numbers = plain.plain_laws(laws) if plain.is_wanted() else records.parameters(laws)
     motored = motored_pressure or engine.needs_motored_pressure
     return CompiledEngine(_kernel(laws, modules, motored), numbers, control)
@@ -123,14 +124,14 @@ def numbers_of_rows(engine: Engine, count: int) -> np.ndarray:
 def kernel_for(
     engine: Engine,
     modules: tuple[str, ...] = INTEGRATOR,
-    actuators: ActuatorLaw | None = None,
+    controller: Controller | None = None,
 ) -> Kernel:
-    """Kernel for the laws of an engine and the actuators before it.
+    """Kernel for the laws of an engine and of what stands between it and a controller.
 
     Composed once per choice of laws, and anew when a law, or a helper or constant it uses, has
     been changed in this process, as in a notebook.
     """
-    laws = _laws_in_order(engine, actuators)
+    laws = _laws_in_order(engine, controller)
     return _kernel(laws, modules, engine.needs_motored_pressure)
 
 
@@ -166,12 +167,14 @@ def _check_methods(law: type[Law], state: tuple[object, ...]) -> None:
         methods_text(law, method, "one", base, {})
 
 
-def _laws_in_order(engine: Engine, actuators: ActuatorLaw | None) -> list[Law]:
-    """Laws of an engine in the order of their record: left, right, engine, actuators."""
+def _laws_in_order(engine: Engine, controller: Controller | None) -> list[Law]:
+    """Laws of an engine in the order of their record: left, right, engine, actuators, converter."""
     left, right = (IDLE_LAWS | chamber.laws for chamber in engine.chambers)
     laws = [side[slot] for side in (left, right) for slot in CHAMBER_SLOTS]
     laws += [getattr(engine, slot) for slot in ENGINE_SLOTS]
-    return [*laws, actuators or IDLE_ACTUATORS]
+    if controller is None:
+        return [*laws, *IDLE_COMMANDED]
+    return [*laws, controller.actuators, controller.converter]
 
 
 def _kernel(

@@ -25,9 +25,10 @@ from saleg.compiler.records import OTHER_SLOTS
 from saleg.compiler.text import own_text
 from saleg.kernel import layout
 from saleg.kernel.decide import decide
-from saleg.kernel.tuples import Control
+from saleg.kernel.sampled import sample
+from saleg.kernel.tuples import Control, Sampling
 from saleg.laws import Law
-from saleg.laws.arguments import Signals
+from saleg.laws.arguments import Instant, Signals
 from saleg.laws.base import CHAMBER_SLOTS
 from saleg.laws.choice import any_of, where
 
@@ -123,7 +124,7 @@ def on_columns() -> SimpleNamespace:
 
 
 def plain_laws(laws: Sequence[Law]) -> list[SimpleNamespace]:
-    """Laws in the place of their numbers: left, right, engine, actuators."""
+    """Laws in the place of their numbers: left, right, engine, actuators, converter."""
     n = len(CHAMBER_SLOTS)
     left, right = (dict(zip(CHAMBER_SLOTS, laws[i : i + n], strict=True)) for i in (0, n))
     rest = dict(zip(OTHER_SLOTS, laws[2 * n :], strict=True))
@@ -136,6 +137,16 @@ def plain_function(controller: Any, room: Control) -> Callable[..., None]:
     def entry(*_addresses: int) -> None:
         memory = room.memory.reshape(layout.CONTROL_PARTS, layout.MEMORY)
         room.commands[0] = decide(controller, memory, Signals(*room.signals[0].tolist()))
+
+    return entry
+
+
+def plain_sample(controller: Any, room: Sampling) -> Callable[..., None]:
+    """What stands in the place of the address of its parts that act at samples."""
+
+    def entry(*_addresses: int) -> None:
+        memory = room.memory.reshape(layout.SAMPLED_PARTS, layout.SAMPLE_MEMORY)
+        room.wanted[0] = sample(controller, memory, Instant(*room.instant[0].tolist()))
 
     return entry
 

@@ -16,10 +16,14 @@ import numpy as np
 
 from saleg.laws import Law
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
-from saleg.laws.control.base import ActuatorLaw
+from saleg.laws.control.base import ActuatorLaw, ConverterLaw
 
-#: Slots beside those of the chambers, in the order of the record: the actuators come last.
-OTHER_SLOTS: dict[str, type[Law]] = {**ENGINE_SLOTS, ActuatorLaw.slot: ActuatorLaw}
+#: Slots beside those of the chambers, in the order of the record; actuators and converter are last.
+OTHER_SLOTS: dict[str, type[Law]] = {
+    **ENGINE_SLOTS,
+    ActuatorLaw.slot: ActuatorLaw,
+    ConverterLaw.slot: ConverterLaw,
+}
 
 #: Lengths of the series of numbers a law has, by name.
 Lengths = tuple[tuple[str, int], ...]
@@ -70,7 +74,7 @@ def parameters(laws: Sequence[Law]) -> np.ndarray:
     Parameters
     ----------
     laws : sequence of Law
-        Left, right, engine, actuators.
+        Left, right, engine, actuators, converter.
     """
     classes: tuple[Any, ...] = tuple(map(type, laws))
     record = _record_of_all(classes, lengths_of_all(laws))

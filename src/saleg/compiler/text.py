@@ -144,7 +144,8 @@ def compose(
     Parameters
     ----------
     classes : sequence of type
-        Classes of the laws, in the order of the record: left, right, engine, actuators.
+        Classes of the laws, in the order of the record: left, right, engine, actuators,
+        converter.
     modules : sequence of str
         Modules of the kernel.
     motored_pressure : bool

@@ -23,7 +23,9 @@ from saleg.control.load_feedback import Feedback
 from saleg.control.maps import OperatingMap, fuel_map, intake_map, operating_grid, operating_map
 from saleg.control.margin import ignition_margins, misfire_warning
 from saleg.control.moments import (
+    BusEnergy,
     StepResponse,
+    bus_energy,
     first_misfire,
     fuel_cuts,
     late_ignitions,
@@ -46,6 +48,7 @@ from saleg.control.running import (
 from saleg.control.sensors import Sensors
 
 __all__ = [
+    "BusEnergy",
     "DeadCentreControl",
     "Demand",
     "Feedback",
@@ -59,6 +62,7 @@ __all__ = [
     "PowerAtDeadCentre",
     "Sensors",
     "StepResponse",
+    "bus_energy",
     "demand_by_fuel",
     "demand_by_intake",
     "demand_by_load",

@@ -1,4 +1,4 @@
-"""When things happened in a run: motored, without fuel, misfired, lit late. They only read."""
+"""When things happened in a run, and what they cost: they only read."""
 
 from __future__ import annotations
 
@@ -177,6 +177,36 @@ def step_response(run: Run, demand: Demand, band: float = 0.05) -> StepResponse:
     settling_time = float(times[first] - at) if settled else math.inf
     overshoot = max(float(answer.max()) - 1.0, 0.0) if len(answer) else math.nan
     return StepResponse(settling_time, overshoot)
+
+
+class BusEnergy(NamedTuple):
+    """Energy that a run has drawn from the electrical side and returned to it.
+
+    Attributes
+    ----------
+    drawn, returned : float
+        Sums over the strokes that took energy and over those that gave some [J].
+    """
+
+    drawn: float
+    returned: float
+
+
+@checked(run=a(Run))
+def bus_energy(run: Run) -> BusEnergy:
+    """Energy account of the DC bus, stroke by stroke; what start-up and recovery cost.
+
+    Parameters
+    ----------
+    run : Run
+
+    Returns
+    -------
+    BusEnergy
+    """
+    energy = run.strokes["electrical_energy"]
+    drawn, returned = -energy[energy < 0.0].sum(), energy[energy > 0.0].sum()
+    return BusEnergy(float(drawn), float(returned))
 
 
 def _times(run: Run, mask: np.ndarray) -> list[tuple[float, float]]:

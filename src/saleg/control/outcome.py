@@ -28,6 +28,8 @@ PARTS = {
     "phase": "motor_control",
     "equivalence_ratio": "fuel_control",
     "intake_temperature": "intake_control",
+    "sets_force": "force_control",
+    "force": "force_control",
 }
 
 
@@ -71,10 +73,17 @@ def blamed(controller: Controller, memory: np.ndarray, signals: Signals, fault: 
     return f"{slot} {type(getattr(controller, slot)).__name__}"
 
 
+def sampled_fault(controller: Controller) -> str:
+    """Text that names the part that gave no force at a sample."""
+    return f"force_control {type(controller.force_control).__name__} gives what is not finite"
+
+
 def _compiled_fault(course: Course) -> str:
     """Fault of a controller in the kernel, which is asked once more, as Python."""
     assert course.controller is not None
     E = course.state.engine[0]
+    if not math.isfinite(E["force"] + E["sets_force"]):
+        return sampled_fault(course.controller)
     memory = E["memory"].reshape(layout.CONTROL_PARTS, layout.MEMORY)
     fault, commands = float(E["fault"]), course.commanded
     who = blamed(course.controller, memory, measured(course.state), fault)

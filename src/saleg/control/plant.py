@@ -17,7 +17,8 @@ from saleg.kernel.control import asked, obey
 from saleg.kernel.decide import decide
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.actuators import Actuators
-from saleg.laws.control.base import ActuatorLaw
+from saleg.laws.control.base import ActuatorLaw, ConverterLaw
+from saleg.laws.control.converter import Converter
 from saleg.quantities import is_number
 from saleg.simulation.course import Course, Replay
 from saleg.simulation.initial_state import State, prepare
@@ -40,6 +41,8 @@ class Plant:
         Time at which it ends [s].
     actuators : ActuatorLaw, optional
         Limits and lags; :class:`saleg.laws.Actuators` unless given.
+    converter : ConverterLaw, optional
+        What comes of a commanded force; :class:`saleg.laws.Converter` unless given.
     **settings
         Further settings of :func:`saleg.simulate`, of which ``stall_stroke`` is 0 here.
 
@@ -66,9 +69,11 @@ class Plant:
         duration: float,
         *,
         actuators: ActuatorLaw | None = None,
+        converter: ConverterLaw | None = None,
         **settings: Any,
     ):
-        self._begin(plant_course(engine, duration, actuators, settings))
+        before = commanded_by(actuators, converter)
+        self._begin(plant_course(engine, duration, before, settings))
         warn_of_unusual(engine, actuators=actuators)
 
     @classmethod
@@ -242,11 +247,13 @@ class ReplayOfCommands(Replay):
         return plant.run()
 
 
-def plant_course(
-    engine: Engine, duration: float, actuators: ActuatorLaw | None, settings: Any
-) -> Course:
-    """Start a run that is commanded from Python, within the limits of actuators."""
-    controller = Controller(actuators=actuators or Actuators())
+def commanded_by(actuators: ActuatorLaw | None, converter: ConverterLaw | None) -> Controller:
+    """A controller of which what stands before the engine matters alone."""
+    return Controller(actuators=actuators or Actuators(), converter=converter or Converter())
+
+
+def plant_course(engine: Engine, duration: float, controller: Controller, settings: Any) -> Course:
+    """Start a run that is commanded from Python, through actuators and converter."""
     return course_of(engine, controller, duration, layout.IN_PYTHON, settings)
 
 
@@ -261,6 +268,9 @@ def course_of(
     controller.check_laws()
     state = prepare(engine)
     state.engine["controlled"] = controlled
+    if controller.force_control is not None:
+        state.engine["sample_time"] = controller.sample_time
+        state.engine["t_sample"] = 0.0
     return Course(engine, state, known, controller)
 
 

@@ -14,14 +14,14 @@ from saleg.batch.table import CHUNK, Row, rows_of
 from saleg.checks import NUMBER, a, checked
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.control.outcome import controlled_outcome
-from saleg.control.plant import InPython, Plant, course_of, give, plant_course
+from saleg.control.plant import InPython, Plant, commanded_by, course_of, give, plant_course
 from saleg.control.sensors import Measurement, Sensors
 from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError, shown
 from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
-from saleg.laws.control.base import ActuatorLaw
+from saleg.laws.control.base import ActuatorLaw, ConverterLaw
 from saleg.quantities import as_float, unusual
 from saleg.simulation.indicators import beyond_ports
 from saleg.simulation.run import Run
@@ -64,9 +64,13 @@ def simulate(
     sensors: Sensors | None = None,
     sample_time: float | None = None,
     actuators: ActuatorLaw | None = None,
+    converter: ConverterLaw | None = None,
     **settings: Any,
 ) -> Run:
     """Simulate an engine under a controller, which acts at every dead centre.
+
+    With a ``force_control`` a :class:`saleg.Controller` acts within the stroke too, compiled in any
+    case.
 
     Parameters
     ----------
@@ -85,6 +89,8 @@ def simulate(
         Let the controller act at these intervals [s] instead of at dead centres.
     actuators : ActuatorLaw, optional
         Limits and lags for an object of your own; a :class:`saleg.Controller` has its own.
+    converter : ConverterLaw, optional
+        What comes of the force an object of your own commands; likewise.
     **settings
         Further settings of :func:`saleg.simulate`, of which ``stall_stroke`` is 0 here.
 
@@ -118,8 +124,9 @@ def simulate(
         compiled = laws and not in_python
     if compiled and (in_python or not laws):
         raise SettingsError("compiled = True: only a Controller without sensors or sample_time is")
-    if laws and actuators is not None:
-        raise SettingsError("actuators: a Controller has its own; replace those")
+    for name, own in (("actuators", actuators), ("converter", converter)):
+        if laws and own is not None:
+            raise SettingsError(f"{name}: a Controller has its own; replace those")
     if compiled and isinstance(controller, Controller):
         run = _compiled(engine, controller, duration, settings)
         warn_of_unusual(engine, controller=controller)
@@ -127,15 +134,13 @@ def simulate(
     if sample_time is not None:
         sample_time = _checked_sample_time(sample_time, duration)
     acting: Acts
-    limits: ActuatorLaw | None
     if isinstance(controller, Controller):
-        controller.validate()
-        acting, limits = InPython(controller), controller.actuators
+        acting, before = InPython(controller), controller
     else:
-        acting, limits = controller, actuators
+        acting, before = controller, commanded_by(actuators, converter)
     if not callable(getattr(acting, "act", None)):
         raise SettingsError(f"{type(controller).__name__} has no method act(signals)")
-    plant = Plant._again(plant_course(engine, duration, limits, settings))
+    plant = Plant._again(plant_course(engine, duration, before, settings))
     measurement = Measurement(sensors or Sensors(), engine)
     warn_of_unusual(engine, controller=controller, actuators=actuators, sensors=sensors)
     return _in_python(plant, acting, measurement if sensors else None, sample_time)

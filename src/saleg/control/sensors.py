@@ -25,7 +25,7 @@ class Sensors(Quantities):
     Parameters
     ----------
     position_noise : float
-        Standard deviation of the position of a dead centre [m].
+        Standard deviation of a position [m].
     position_resolution : float
         Step of the position [m].
     time_resolution : float
@@ -35,7 +35,7 @@ class Sensors(Quantities):
     power_resolution : float
         Step of the power [W].
     delay : int
-        By how many dead centres the signals are late.
+        By how many dead centres the signals of dead centres are late.
     seed : int
         Of the noise; equal seeds give equal noise.
     """
@@ -74,17 +74,21 @@ class Measurement:
         sensors.validate()
         self._sensors, self._engine = sensors, engine
         self._random = np.random.default_rng(sensors.seed)
+        self._within_stroke = np.random.default_rng((sensors.seed, 1))
         self._late: deque[Signals] = deque(maxlen=sensors.delay + 1)
         self._last: tuple[float, float] | None = None
         self._dead_centre = (0.0, 0.0, 0.0)
 
     def of(self, true: Signals) -> Signals:
-        """Signals of a dead centre as the sensors measure them.
+        """Signals as the sensors measure them.
 
-        Between two dead centres there is nothing new to measure.
+        Between two dead centres only the position is measured anew.
         """
         if self._late and self._dead_centre == (true.x, true.stroke, true.direction):
-            return self._shown(true)
+            noise = float(self._within_stroke.standard_normal())
+            x = true.position + self._sensors.position_noise * noise
+            position = _rounded(x, self._sensors.position_resolution)
+            return self._shown(true)._replace(position=position)
         self._dead_centre = true.x, true.stroke, true.direction
         known = self._sensors
         noise, noise_of_power = self._random.standard_normal(2)
@@ -106,6 +110,7 @@ class Measurement:
             x_right=max(ends),
             compression_ratio_left=self._of_side(0, *ends),
             compression_ratio_right=self._of_side(1, *ends),
+            position=x,
             frequency=frequency,
             power=power,
             regulated_weight=self._regulated(true, ends, frequency),

@@ -1,7 +1,8 @@
-"""A controller: five laws that command the engine at dead centres, behind actuators."""
+"""A controller: laws that command the engine at dead centres and within the stroke."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,19 +12,33 @@ from saleg.laws.contract import check_laws
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     CONTROL_SLOTS,
+    SAMPLED_SLOTS,
     ActuatorLaw,
+    ConverterLaw,
+    ForceControl,
     FuelControl,
     IntakeControl,
     LoadControl,
     MotorControl,
+    PositionSensorLaw,
     StateLogic,
 )
+from saleg.laws.control.converter import Converter
 from saleg.laws.control.fuel import RatedFuel
 from saleg.laws.control.intake import RatedIntake
 from saleg.laws.control.load import StrokeRegulator
 from saleg.laws.control.motor import ResonanceSearch
+from saleg.laws.control.position_sensor import PositionSensor
 from saleg.laws.control.state_logic import CompressionThreshold
-from saleg.quantities import Problem, problems
+from saleg.quantities import Problem, as_float, problems
+
+#: All slots of a controller.
+SLOTS: dict[str, type[Law]] = {
+    **CONTROL_SLOTS,
+    **SAMPLED_SLOTS,
+    ActuatorLaw.slot: ActuatorLaw,
+    ConverterLaw.slot: ConverterLaw,
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +61,12 @@ class Controller:
         Intake temperature.
     actuators : ActuatorLaw
         Limits and lags.
+    force_control : ForceControl, optional
+        Force of the alternator at samples within the stroke; nobody acts there unless given.
+    position_sensor : PositionSensorLaw
+        What it is shown, and how often.
+    converter : ConverterLaw
+        What comes of a commanded force, and what the DC bus has of it.
 
     Examples
     --------
@@ -59,21 +80,42 @@ class Controller:
     fuel_control: FuelControl = field(default_factory=RatedFuel)
     intake_control: IntakeControl = field(default_factory=RatedIntake)
     actuators: ActuatorLaw = field(default_factory=Actuators)
+    force_control: ForceControl | None = None
+    position_sensor: PositionSensorLaw = field(default_factory=PositionSensor)
+    converter: ConverterLaw = field(default_factory=Converter)
 
     @property
     def laws(self) -> dict[str, Law]:
-        """Laws of the controller by slot; its actuators are not among them."""
+        """Laws of the controller that act at dead centres, by slot."""
         return {slot: getattr(self, slot) for slot in CONTROL_SLOTS}
+
+    @property
+    def sampled_laws(self) -> dict[str, Law]:
+        """Laws of the controller that act within the stroke, by slot; none without a force."""
+        if self.force_control is None:
+            return {}
+        return {slot: getattr(self, slot) for slot in SAMPLED_SLOTS}
+
+    @property
+    def sample_time(self) -> float:
+        """Time between two samples within the stroke [s]; infinite if nobody acts there."""
+        if self.force_control is None:
+            return math.inf
+        return float(self.position_sensor.sample_time)  # type: ignore[attr-defined]
 
     def problems(self) -> list[Problem]:
         """Every wrong field; empty when the controller is valid."""
         found = []
-        for slot, kind in {**CONTROL_SLOTS, ActuatorLaw.slot: ActuatorLaw}.items():
+        for slot, kind in SLOTS.items():
             part = getattr(self, slot)
             if isinstance(part, kind):
                 found += problems(part, slot)
-            else:
+            elif not (slot == ForceControl.slot and part is None):
                 found.append(Problem(slot, part, "-", f"must be a {kind.__name__}"))
+        if self.force_control is not None:
+            interval = as_float(getattr(self.position_sensor, "sample_time", None))
+            if interval is None or not 0.0 < interval < math.inf:
+                found.append(Problem("position_sensor.sample_time", interval, "s", "must be > 0"))
         return found
 
     def validate(self) -> None:
@@ -96,7 +138,9 @@ class Controller:
         LawError
             Naming law and method.
         """
-        check_laws([*self.laws.values(), self.actuators])
+        check_laws(
+            [*self.laws.values(), *self.sampled_laws.values(), self.actuators, self.converter]
+        )
 
 
 def check_controller(controller: Any) -> None:

@@ -7,7 +7,16 @@ no other kernel; `control` is a :class:`saleg.kernel.tuples.Control`.
 from math import inf, isfinite, nan, pi
 
 from saleg.kernel.jit import compiled, inline
-from saleg.kernel.layout import CONTROL_PARTS, LEFT, MEMORY, RIGHT
+from saleg.kernel.layout import (
+    CLOSED,
+    CONTROL_PARTS,
+    LEFT,
+    MEMORY,
+    RIGHT,
+    SAMPLE_MEMORY,
+    SAMPLED_PARTS,
+    X,
+)
 from saleg.kernel.rhs import motor_angle
 from saleg.kernel.slots import actuators_follow, actuators_refused, call_at
 from saleg.kernel.state import clearance_of
@@ -15,6 +24,8 @@ from saleg.laws.arguments import Commands
 
 # How near to a head a position counts, over the clearance at the midpoint.
 NEAREST = 1.0 - 1e-9
+# How near to the pressure wanted a bounce chamber is left alone.
+AS_FILLED = 1e-9
 
 
 @inline
@@ -51,8 +62,8 @@ def compression_ratio(C, low, high):
 
 
 @compiled
-def write_signals(E, C, signals):
-    """Fill a record of :class:`saleg.laws.Signals` with the measurements of a dead centre."""
+def write_signals(E, C, y, signals):
+    """Fill a record of :class:`saleg.laws.Signals`: what a dead centre showed, and where it is."""
     # A start in the middle of a stroke has guessed its length alone.
     here = E.x_dead_centre if isfinite(E.x_dead_centre) else -0.5 * E.direction * E.stroke
     before = here + E.direction * E.stroke
@@ -73,6 +84,7 @@ def write_signals(E, C, signals):
     signals.maximum_stroke = E.maximum_stroke
     signals.rated_equivalence_ratio = E.rated_equivalence_ratio
     signals.rated_intake_temperature = E.rated_intake_temperature
+    signals.position = y[X]
 
 
 @inline
@@ -88,14 +100,18 @@ def commands_of(record):
         phase=record.phase,
         equivalence_ratio=record.equivalence_ratio,
         intake_temperature=record.intake_temperature,
+        sets_force=record.sets_force,
+        force=record.force,
+        spark_advance=record.spark_advance,
+        spring_pressure=record.spring_pressure,
     )
 
 
 @compiled
-def ask(E, C, control):
+def ask(E, C, y, control):
     """Commands of the controller; the memory of its parts travels with the engine's record."""
     memory, signals, commands = control.memory, control.signals, control.commands
-    write_signals(E, C, signals[0])
+    write_signals(E, C, y, signals[0])
     for n in range(CONTROL_PARTS * MEMORY):
         memory[n] = E.memory[n]
     commands[0] = commands[1]  # NaN, which stays where the controller fails
@@ -125,6 +141,10 @@ def in_force(E, load_weight, amplitude, equivalence_ratio, intake_temperature):
         phase=0.0,
         equivalence_ratio=equivalence_ratio,
         intake_temperature=intake_temperature,
+        sets_force=E.sets_force,
+        force=E.force,
+        spark_advance=E.spark_advance,
+        spring_pressure=E.spring_pressure,
     )
 
 
@@ -171,6 +191,11 @@ def obey(P, E, C, wanted, elapsed):
     E.motor_phase = now.phase if now.sets_phase > 0.0 else angle % (2.0 * pi)
     E.equivalence_ratio = now.equivalence_ratio
     E.intake_temperature = now.intake_temperature
+    E.spark_advance = now.spark_advance
+    E.spring_pressure = now.spring_pressure
+    if E.sample_time == 0.0:  # else it is commanded at samples
+        E.sets_force, E.force = now.sets_force, now.force
+    E.is_driven = max(E.motoring, E.sets_force)
     E.asked_load_weight = wanted.load_weight
     E.asked_amplitude = wanted.amplitude
     E.asked_equivalence_ratio = wanted.equivalence_ratio
@@ -180,13 +205,60 @@ def obey(P, E, C, wanted, elapsed):
 
 @compiled
 def supply(E, C):
-    """Hand fuel and intake temperature to the chambers that burn fuel.
+    """Hand fuel, spark and intake temperature to the chambers that burn fuel; fill the others.
 
-    They keep what they differ by when the engine is rated.
+    Those that burn keep what they differ by when the engine is rated.
     """
     for side in range(2):
         c = C[side]
+        c.next_spark_advance = E.spark_advance
         if c.lower_heating_value <= 0.0:
+            order_pressure(c, E.spring_pressure)
             continue
         c.intake_temperature = E.intake_temperature + c.beside_rated_temperature
         c.equivalence_ratio_wanted = E.equivalence_ratio * c.over_rated_fuel
+
+
+@inline
+def order_pressure(c, pressure):
+    """Have a chamber that is closed for ever filled so that the midpoint has a pressure."""
+    is_closed = c.port == inf and c.mode == CLOSED
+    if pressure > 0.0 and is_closed and abs(pressure / pressure_at_midpoint(c) - 1.0) > AS_FILLED:
+        c.wanted_pressure = pressure
+        c.renewal_due = 1.0
+
+
+@inline
+def pressure_at_midpoint(c):
+    """Pressure a bounce chamber would have with its midpoint's temperature there [Pa]."""
+    return c.mass * c.gas_constant * c.T_closing / c.V_closing
+
+
+@compiled
+def take_sample(E, y, sampling):
+    """Let the parts of the controller that act within the stroke set the force."""
+    memory, instant, wanted = sampling.memory, sampling.instant, sampling.wanted
+    shown = instant[0]
+    here = E.x_dead_centre if isfinite(E.x_dead_centre) else -0.5 * E.direction * E.stroke
+    before = here + E.direction * E.stroke
+    shown.t, shown.x, shown.sample_time, shown.motoring = E.t, y[X], E.sample_time, E.motoring
+    shown.x_left, shown.x_right = min(here, before), max(here, before)
+    shown.frequency = 0.5 / E.stroke_duration if E.stroke_duration > 0.0 else 0.0
+    shown.maximum_stroke = E.maximum_stroke
+    wanted[0].force = nan  # which stays where they fail
+    for n in range(SAMPLED_PARTS * SAMPLE_MEMORY):
+        memory[n] = E.sample_memory[n]
+    call_at(
+        sampling.address,
+        sampling.numbers.ctypes.data,
+        memory.ctypes.data,
+        instant.ctypes.data,
+        wanted.ctypes.data,
+    )
+    for n in range(SAMPLED_PARTS * SAMPLE_MEMORY):
+        E.sample_memory[n] = memory[n]
+    E.t_sample += E.sample_time
+    E.sets_force, E.force = wanted[0].sets_force, wanted[0].force
+    E.is_driven = max(E.motoring, E.sets_force)
+    if not isfinite(E.force + E.sets_force):
+        E.fault = nan

@@ -32,6 +32,7 @@ def with_motoring(s, motoring):
         x_right=s.x_right,
         compression_ratio_left=s.compression_ratio_left,
         compression_ratio_right=s.compression_ratio_right,
+        position=s.position,
     )
 
 
@@ -51,4 +52,8 @@ def decide(P, memory, measured):
         phase=drive.phase,
         equivalence_ratio=fuel_control_equivalence_ratio(P, memory[3], signals),
         intake_temperature=intake_control_temperature(P, memory[4], signals),
+        sets_force=0.0,
+        force=0.0,
+        spark_advance=0.0,
+        spring_pressure=0.0,
     )

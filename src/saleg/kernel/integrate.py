@@ -10,6 +10,7 @@ rates of a step's stages.
 
 from math import copysign, exp, log
 
+from saleg.kernel.control import take_sample
 from saleg.kernel.events import (
     expected_event,
     first_event,
@@ -220,7 +221,7 @@ def reason_to_stop(E, O, landed):
     if landed >= HEAD:
         return HEAD_CONTACT
     if landed != DEAD_CENTRE:
-        return -1
+        return CONTROLLER_FAULT if E.fault != 0.0 else -1
     if E.strokes > 0.0 and E.stroke < O.stall * E.maximum_stroke:
         return STALLED
     if E.fault != 0.0:
@@ -250,7 +251,11 @@ def run_on(run):
         if O.history > 0 and tables.filled[0].history == 0:
             observe_now(P, E, C, O, y, k[0], tables)
         # What is due at the start.
-        if switch(P, E, C, O, y, -1, peaks, tables, control):
+        changed = switch(P, E, C, O, y, -1, peaks, tables, control)
+        if E.t >= E.t_sample:
+            take_sample(E, y, control.sampling)
+            changed = True
+        if changed:
             begin_anew(P, E, C, O, y, k[0], tables)
         if O.peaks > 0 and peaks[PEAK_PRESSURE] == 0.0:  # nothing has been watched of this stroke
             watch_point(C, y, k[0], peaks)
@@ -263,7 +268,7 @@ def run_on(run):
             return TOO_MANY_STEPS
         full, end, aim = O.length, O.end, O.aim
         if O.part == WHOLE:
-            t_event = next_time_event(C, O.t_end)
+            t_event = next_time_event(C, min(O.t_end, E.t_sample))
             full, end, aim = good_step(P, E, C, O, tableau, run.order, t_event, y, k, y_new)
         if full < 0.0:
             return STEP_FAILURE
@@ -282,6 +287,9 @@ def run_on(run):
         changed = False
         if landed >= 0 or is_due(E, C, LEFT, E.t, y) or is_due(E, C, RIGHT, E.t, y):
             changed = switch(P, E, C, O, y, landed, peaks, tables, control)
+        if E.t >= E.t_sample:
+            take_sample(E, y, control.sampling)
+            changed = True
         code = reason_to_stop(E, O, landed)
         if landed == DEAD_CENTRE:
             if E.direction > 0.0:

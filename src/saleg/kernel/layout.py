@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from saleg.laws.arguments import Commands, Signals
+from saleg.laws.arguments import Commands, ForceCommand, Instant, Signals
 
 # Sides. Whole numbers of numpy's: for Python's own numba compiles each function once per value.
 LEFT = np.int64(0)
@@ -148,6 +148,9 @@ IN_PYTHON = 2
 # Parts of a controller that hold numbers, and how many each.
 CONTROL_PARTS = 5
 MEMORY = 4
+# Those that act at samples, and how many numbers each.
+SAMPLED_PARTS = 2
+SAMPLE_MEMORY = 20
 
 #: State of the engine beside the state vector, with what it needs at every evaluation.
 ENGINE_RECORD = np.dtype(
@@ -216,6 +219,21 @@ ENGINE_RECORD = np.dtype(
         )
     ]
     + [("memory", np.float64, (CONTROL_PARTS * MEMORY,))]
+    # Whether motor or commanded force stand in the place of the load; what else is commanded, and
+    # the samples within the stroke: time of the next, infinite for none, and time between two.
+    + [
+        (name, np.float64)
+        for name in (
+            "is_driven",
+            "sets_force",
+            "force",
+            "spark_advance",
+            "spring_pressure",
+            "t_sample",
+            "sample_time",
+        )
+    ]
+    + [("sample_memory", np.float64, (SAMPLED_PARTS * SAMPLE_MEMORY,))]
 )
 
 #: One chamber: geometry and intake, then what stands in it, then what the stroke has seen so far.
@@ -289,6 +307,9 @@ CHAMBER_RECORD = np.dtype(
     # Whether its masses are states, and gas flows through its ports; mass when lit; of what
     # flowed in since the ports opened, what was left when they closed.
     + [(name, np.float64) for name in ("breathes", "by_flow", "mass_lit", "fresh")]
+    # Way by which the spark comes earlier for the charge in it and for the next one; pressure at
+    # the midpoint to which a bounce chamber is to be filled, 0 for none.
+    + [(name, np.float64) for name in ("spark_advance", "next_spark_advance", "wanted_pressure")]
     # Whether its gas changes with its composition, and the specific gas constants of its parts.
     + [
         (name, np.float64)
@@ -407,6 +428,9 @@ FILLED_RECORD = np.dtype([(name, np.int64) for name in ("strokes", "events", "hi
 #: What a controller is shown and what it asks for.
 SIGNALS_RECORD = np.dtype([(name, np.float64) for name in Signals._fields])
 COMMANDS_RECORD = np.dtype([(name, np.float64) for name in Commands._fields])
+#: The same of its parts that act at samples.
+INSTANT_RECORD = np.dtype([(name, np.float64) for name in Instant._fields])
+FORCE_RECORD = np.dtype([(name, np.float64) for name in ForceCommand._fields])
 
 #: How the search for a fixed point went: maps taken, how far the last image is from its point, how
 #: many times that the fixed point may be away, and how far a whole cycle misses its start.

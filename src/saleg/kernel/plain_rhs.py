@@ -133,6 +133,7 @@ def charge_in(E, C, side, y):
         T=c.T_closing,
         V=c.V_closing,
         swept_volume=c.area * E.stroke,
+        spark_advance=0.0,  # nobody commands
         time_to_dead_centre=c.time_to_dead_centre,
     )
 

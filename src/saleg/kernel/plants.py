@@ -120,6 +120,6 @@ def advance_fleet(fleet, rows, run, address):
         fleet.begins[row] = False
         code = CONTROLLER_FAULT if E.fault != 0.0 else next_stroke(fleet, row, run, address)
         fleet.codes[row] = code
-        write_signals(E, C, fleet.signals[row])
+        write_signals(E, C, run.y, fleet.signals[row])
         take_back(fleet, row, run)
     return -1

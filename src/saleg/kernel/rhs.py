@@ -74,6 +74,8 @@ from saleg.kernel.slots import (
     alternator_electrical_power,
     alternator_force,
     alternator_next_breakpoint,
+    converter_force,
+    converter_power,
     frame_acceleration,
     frame_loss,
     friction_force,
@@ -183,6 +185,7 @@ def charge_of(E, C, side, y):
         T=c.T_closing,
         V=c.V_closing,
         swept_volume=c.area * E.stroke,
+        spark_advance=c.spark_advance,
         time_to_dead_centre=c.time_to_dead_centre,
     )
 
@@ -327,11 +330,20 @@ def motor_angle(E, t):
 @inline
 def alternator_action(P, E, t, motion):
     """Force of the alternator against positive velocity [N] and the power it delivers [W]."""
-    if MOTORING_IS_POSSIBLE and E.motoring > 0.0:
-        force = -E.motor_amplitude * sin(motor_angle(E, t))
-        return force, actuators_motor_power(P, force * motion.v)
+    if MOTORING_IS_POSSIBLE and E.is_driven > 0.0:
+        return driven_action(P, E, t, motion.v)
     force = alternator_force(P, E.load_weight, motion)
     return force, alternator_electrical_power(P, E.load_weight, motion)
+
+
+@inline
+def driven_action(P, E, t, v):
+    """The same of an alternator whose force is commanded, or that is a motor."""
+    if E.sets_force > 0.0:
+        force = converter_force(P, E.force, v)
+        return -force, converter_power(P, force, v)
+    force = -E.motor_amplitude * sin(motor_angle(E, t))
+    return force, actuators_motor_power(P, force * v)
 
 
 @inline

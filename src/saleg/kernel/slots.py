@@ -8,7 +8,18 @@ from ctypes import CFUNCTYPE, c_void_p
 from typing import Any
 
 from saleg.kernel.logarithms import Logarithms
-from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Parts, Signals, Stroke
+from saleg.laws.arguments import (
+    Charge,
+    Commands,
+    Drive,
+    ForceCommand,
+    Gas,
+    Instant,
+    Motion,
+    Parts,
+    Signals,
+    Stroke,
+)
 
 
 def _chamber(P: Any, side: int) -> Any:
@@ -298,3 +309,23 @@ def actuators_follow(P: Any, actual: Commands, wanted: Commands, elapsed: float)
 def actuators_motor_power(P: Any, mechanical: float) -> float:
     """Electrical power of the motor."""
     return P.actuators.motor_power(mechanical)
+
+
+def converter_force(P: Any, wanted: float, v: float) -> float:
+    """Force on the translator that comes of the one commanded."""
+    return P.converter.force(wanted, v)
+
+
+def converter_power(P: Any, force: float, v: float) -> float:
+    """Power delivered to the DC bus."""
+    return P.converter.power(force, v)
+
+
+def position_sensor_measured(P: Any, memory: Any, x: float) -> float:
+    """Position measured."""
+    return P.position_sensor.measured(memory, x)
+
+
+def force_control_push(P: Any, memory: Any, instant: Instant) -> ForceCommand:
+    """Force until the next sample."""
+    return P.force_control.push(memory, instant)

@@ -16,7 +16,7 @@ from saleg.kernel.breathing import (
     take_contents,
     weighted,
 )
-from saleg.kernel.control import ask, obey
+from saleg.kernel.control import ask, obey, pressure_at_midpoint
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
@@ -265,6 +265,20 @@ def close_ports(P, E, C, side, y):
 
 
 @compiled
+def fill_chamber(P, C, side, y):
+    """Bring a bounce chamber to the pressure commanded, by gas of its own temperature."""
+    c = C[side]
+    before = internal_energy(P, C, side, y)
+    ratio = c.wanted_pressure / pressure_at_midpoint(c)
+    y[THETA + side] += log(ratio)
+    y[MOTORED + side] += log(ratio)
+    c.mass, c.fuel, c.air, c.burnt = ratio * c.mass, ratio * c.fuel, ratio * c.air, ratio * c.burnt
+    put_contents(C, side, y)
+    c.renewal_due = 0.0
+    c.exhaust_energy += before - internal_energy(P, C, side, y)
+
+
+@compiled
 def renew_charge(P, E, C, side, y):
     """Reject heat at bottom dead centre, down to the curve through the midpoint state (2.3)."""
     if C[side].mode == BURNING:
@@ -327,6 +341,7 @@ def arm_charge(P, E, C, side, y, p, T, volume):
     c.p_closing, c.T_closing, c.V_closing = p, T, volume
     c.time_to_dead_centre = E.t_dead_centre + last_duration(E) - E.t
     c.mode = CLOSED
+    c.spark_advance = c.next_spark_advance
     c.charge_number += 1.0
     c.armed = ARMED if c.fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
@@ -509,8 +524,10 @@ def change_mode(P, E, C, O, side, y, kind):
             y[IGNITION + side] = 0.0
     elif kind == EVENT_IGNITION:
         ignite(P, E, C, side, y, O.motored)
-    elif kind == EVENT_CHARGE_RENEWAL:
+    elif kind == EVENT_CHARGE_RENEWAL and C[side].curve_exponent > 0.0:
         renew_charge(P, E, C, side, y)
+    elif kind == EVENT_CHARGE_RENEWAL:
+        fill_chamber(P, C, side, y)
     elif kind == EVENT_PORT_CLOSING:
         close_ports(P, E, C, side, y)
     else:
@@ -536,7 +553,7 @@ def turn(P, E, C, y, peaks, tables, control):
         c = C[side]
         c.renewal_due = 1.0 if c.curve_exponent > 0.0 > c.sign * E.direction else 0.0
     if E.controlled == COMPILED:
-        obey(P, E, C, ask(E, C, control), E.t - E.t_command)
+        obey(P, E, C, ask(E, C, y, control), E.t - E.t_command)
 
 
 @compiled

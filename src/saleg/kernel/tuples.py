@@ -114,6 +114,30 @@ class Scratch(NamedTuple):
     spare: Spare
 
 
+class Sampling(NamedTuple):
+    """Parts of a controller that act at samples, as the kernel calls them.
+
+    Attributes
+    ----------
+    address : int
+        Address of the compiled function, 0 for none; the function itself where nothing is compiled.
+    numbers : ndarray
+        Numbers of its laws.
+    memory : ndarray, shape (SAMPLED_PARTS * SAMPLE_MEMORY,)
+        Room for what they remember.
+    instant : ndarray of INSTANT_RECORD, shape (1,)
+        Room for what they are shown.
+    wanted : ndarray of FORCE_RECORD, shape (1,)
+        Room for what they ask for.
+    """
+
+    address: Any
+    numbers: Any
+    memory: Any
+    instant: Any
+    wanted: Any
+
+
 class Control(NamedTuple):
     """Controller as the kernel calls it.
 
@@ -129,6 +153,8 @@ class Control(NamedTuple):
         Room for what it is shown.
     commands : ndarray of COMMANDS_RECORD, shape (2,)
         Room for what it asks for, and the NaN that stands there before.
+    sampling : Sampling
+        Its parts that act within the stroke.
     """
 
     address: Any
@@ -136,6 +162,7 @@ class Control(NamedTuple):
     memory: Any
     signals: Any
     commands: Any
+    sampling: Sampling
 
 
 class Integration(NamedTuple):

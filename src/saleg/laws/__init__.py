@@ -9,7 +9,18 @@ from saleg.laws.alternator import (
     LinearLoad,
     SinusoidalMotor,
 )
-from saleg.laws.arguments import Charge, Commands, Drive, Gas, Motion, Parts, Signals, Stroke
+from saleg.laws.arguments import (
+    Charge,
+    Commands,
+    Drive,
+    ForceCommand,
+    Gas,
+    Instant,
+    Motion,
+    Parts,
+    Signals,
+    Stroke,
+)
 from saleg.laws.base import (
     Alternator,
     Completeness,
@@ -35,16 +46,22 @@ from saleg.laws.completeness import CompleteCombustion, CompletenessByRatio
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import (
     ActuatorLaw,
+    ConverterLaw,
+    ForceControl,
     FuelControl,
     IntakeControl,
     LoadControl,
     MotorControl,
+    PositionSensorLaw,
     StateLogic,
 )
+from saleg.laws.control.converter import Converter
+from saleg.laws.control.force import PushAlong, tracked_velocity
 from saleg.laws.control.fuel import FuelCut, FuelOnDemand, MappedFuel, NoFuel, RatedFuel
 from saleg.laws.control.intake import HeatedIntake, MappedIntake, RatedIntake
 from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad, StrokeRegulator
-from saleg.laws.control.motor import ResonanceSearch, SteadyMotor
+from saleg.laws.control.motor import PhaseLockedMotor, ResonanceSearch, SteadyMotor
+from saleg.laws.control.position_sensor import PositionSensor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
 from saleg.laws.earlier_names import accept_earlier_names
 from saleg.laws.frame import FixedFrame, MountedFrame
@@ -117,6 +134,8 @@ __all__ = [
     "ConstantForce",
     "ConstantFriction",
     "ConstantGamma",
+    "Converter",
+    "ConverterLaw",
     "CosineForce",
     "CoulombViscousFriction",
     "Crankcase",
@@ -129,6 +148,8 @@ __all__ = [
     "FixedWall",
     "FlowExchange",
     "FluxProfile",
+    "ForceCommand",
+    "ForceControl",
     "ForceMap",
     "Frame",
     "Friction",
@@ -146,6 +167,7 @@ __all__ = [
     "Ignition",
     "IgnitionAtDeadCentre",
     "IgnitionAtPressure",
+    "Instant",
     "InstantExchange",
     "InstantRelease",
     "IntakeControl",
@@ -172,12 +194,16 @@ __all__ = [
     "NoScatter",
     "OneSidedSprings",
     "Parts",
+    "PhaseLockedMotor",
     "Plenum",
     "PolytropicLoss",
     "PortFlow",
+    "PositionSensor",
+    "PositionSensorLaw",
     "PowerDemand",
     "PreloadedSprings",
     "ProgressiveSprings",
+    "PushAlong",
     "RCMIgnition",
     "RCMIgnitionPascal",
     "RatedFuel",
@@ -205,5 +231,6 @@ __all__ = [
     "Wiebe",
     "Woschni",
     "any_of",
+    "tracked_velocity",
     "where",
 ]

@@ -59,6 +59,8 @@ class Charge(NamedTuple):
         State at port closing [Pa, K, m^3].
     swept_volume : float
         Volume swept by the latest stroke [m^3].
+    spark_advance : float
+        Way by which a controller has the spark come earlier [m].
     time_to_dead_centre : float
         Time from port closing to the dead centre, if the present stroke lasts as long as the one
         before it did [s]; infinite while none has been.
@@ -73,6 +75,7 @@ class Charge(NamedTuple):
     T: float
     V: float
     swept_volume: float
+    spark_advance: float = 0.0
     time_to_dead_centre: float = math.inf
 
 
@@ -180,6 +183,9 @@ class Signals(NamedTuple):
         Positions of the last two dead centres [m]; negative on the left of the midpoint.
     compression_ratio_left, compression_ratio_right : float
         Geometric compression ratio between them of each chamber alone, by its own clearance [-].
+    position : float
+        Position of the translator now [m]: at a dead centre `x`, at a sample within the stroke
+        where it has come to.
     """
 
     t: float
@@ -199,6 +205,7 @@ class Signals(NamedTuple):
     x_right: float = math.nan
     compression_ratio_left: float = math.nan
     compression_ratio_right: float = math.nan
+    position: float = math.nan
 
 
 class Drive(NamedTuple):
@@ -242,6 +249,16 @@ class Commands(NamedTuple):
         Of the charges composed from now on [-]; 0 cuts the fuel.
     intake_temperature : float
         Intake temperature [K].
+    sets_force : float
+        1 for `force` in the place of load and motor, whatever `motoring` says, else 0 [-].
+    force : float
+        Force of the alternator on the translator [N], positive to the right; its converter limits
+        what comes of it.
+    spark_advance : float
+        Way by which a spark comes earlier than its law has it, later if negative [m].
+    spring_pressure : float
+        Pressure at the midpoint [Pa] to which bounce chambers are filled, or emptied; 0 leaves
+        their gas in them.
     """
 
     motoring: float
@@ -253,3 +270,54 @@ class Commands(NamedTuple):
     phase: float
     equivalence_ratio: float
     intake_temperature: float
+    sets_force: float = 0.0
+    force: float = 0.0
+    spark_advance: float = 0.0
+    spring_pressure: float = 0.0
+
+
+class Instant(NamedTuple):
+    """Signals of a controller at a sample within the stroke.
+
+    Attributes
+    ----------
+    t : float
+        Time [s].
+    x : float
+        Position from the midpoint [m], as its sensor measures it; right is positive.
+    sample_time : float
+        Time since the sample before [s].
+    motoring : float
+        1 if the state logic has decided on a motor at the latest dead centre, else 0 [-].
+    x_left, x_right : float
+        Positions of the last two dead centres [m].
+    frequency : float
+        ``1 / (2 x duration of the latest stroke)`` [Hz]; 0 before the first.
+    maximum_stroke : float
+        Greatest geometrically possible stroke [m], see :attr:`saleg.Engine.maximum_stroke`.
+    """
+
+    t: float
+    x: float
+    sample_time: float
+    motoring: float
+    x_left: float
+    x_right: float
+    frequency: float
+    maximum_stroke: float
+
+
+class ForceCommand(NamedTuple):
+    """Force of the alternator from one sample to the next.
+
+    Attributes
+    ----------
+    sets_force : float
+        1 for `force` in the place of load and motor, 0 to leave the alternator to what is
+        commanded at dead centres [-].
+    force : float
+        Force on the translator [N], positive to the right.
+    """
+
+    sets_force: float
+    force: float

@@ -151,14 +151,15 @@ class SparkAtClearance(Ignition):
     Parameters
     ----------
     clearance : float
-        Clearance between crown and head at the spark [m].
+        Clearance between crown and head at the spark [m]; a controller may have it come earlier.
     """
 
     clearance: float = quantity("m", default=0.020, low=0, usual=LENGTH)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: speed inward over the way to go."""
-        way = charge.V / gas.V * gas.clearance - self.clearance
+        spark = self.clearance + charge.spark_advance
+        way = charge.V / gas.V * gas.clearance - spark
         return max(-gas.clearance_rate, 0.0) / max(way, 1e-9)
 
 

@@ -200,6 +200,7 @@ def _fill_engine(E: Any, engine: Engine, start: Any, C: Any) -> None:
         x_left=-0.5 * start.stroke,
         x_right=0.5 * start.stroke,
     )
+    E.t_sample = math.inf
     for c in C:
         c.time_to_dead_centre = guess.duration
     E.load_weight = engine.alternator.at_dead_centre(-1.0, guess)

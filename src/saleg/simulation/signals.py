@@ -13,5 +13,5 @@ from saleg.simulation.initial_state import State
 def measured(state: State) -> Signals:
     """Signals at a state."""
     values = np.zeros(1, layout.SIGNALS_RECORD).view(np.recarray)
-    write_signals(*state.records, values[0])
+    write_signals(*state.records, state.y, values[0])
     return Signals(*values[0].tolist())

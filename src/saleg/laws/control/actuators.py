@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from saleg.laws.arguments import Commands
 from saleg.laws.control.base import ActuatorLaw
-from saleg.laws.usual import COMMANDED_TEMPERATURE, LAG, SMALL_FORCE
+from saleg.laws.usual import COMMANDED_TEMPERATURE, GAS_PRESSURE, LAG, SMALL_FORCE
 from saleg.quantities import quantity
 
 #: Number of each command, from 1 on, as :meth:`Actuators.refused` gives it.
@@ -21,6 +21,10 @@ from saleg.quantities import quantity
     PHASE,
     EQUIVALENCE_RATIO,
     INTAKE_TEMPERATURE,
+    SETS_FORCE,
+    FORCE,
+    SPARK_ADVANCE,
+    SPRING_PRESSURE,
 ) = (1.0 + place for place in range(len(Commands._fields)))
 
 
@@ -35,12 +39,14 @@ class Actuators(ActuatorLaw):
     Parameters
     ----------
     most_load, most_force, most_frequency, most_fuel : float
-        Largest load weight [-], amplitude [N] and frequency [Hz] of the motor, equivalence
-        ratio [-]; the least is zero.
+        Largest load weight [-], amplitude or force either way [N], frequency of the motor [Hz],
+        equivalence ratio [-]; the least is zero.
     most_sweep : float
         Fastest change of the frequency, up or down [Hz/s].
     coldest, hottest : float
         Limits of the intake temperature [K].
+    most_spring_pressure : float
+        Largest pressure bounce chambers can be filled to [Pa].
     load_lag, force_lag, fuel_lag, intake_lag : float
         Time constants of load weight, amplitude of the motor, equivalence ratio and intake
         temperature [s]; 0 follows at once.
@@ -55,6 +61,7 @@ class Actuators(ActuatorLaw):
     most_fuel: float = quantity("-", default=5.0, low=0)
     coldest: float = quantity("K", default=150.0, low=1.0, usual=COMMANDED_TEMPERATURE)
     hottest: float = quantity("K", default=1000.0, low=1.0, usual=COMMANDED_TEMPERATURE)
+    most_spring_pressure: float = quantity("Pa", default=1e7, low=0, usual=GAS_PRESSURE)
     load_lag: float = quantity("s", default=0.0, low=0, usual=LAG)
     force_lag: float = quantity("s", default=0.0, low=0, usual=LAG)
     fuel_lag: float = quantity("s", default=0.0, low=0, usual=LAG)
@@ -81,6 +88,14 @@ class Actuators(ActuatorLaw):
             return EQUIVALENCE_RATIO
         if not self.coldest <= wanted.intake_temperature <= self.hottest:
             return INTAKE_TEMPERATURE
+        if not (wanted.sets_force == 0.0 or wanted.sets_force == 1.0):
+            return SETS_FORCE
+        if not abs(wanted.force) <= self.most_force:
+            return FORCE
+        if not math.isfinite(wanted.spark_advance):
+            return SPARK_ADVANCE
+        if not 0.0 <= wanted.spring_pressure <= self.most_spring_pressure:
+            return SPRING_PRESSURE
         return 0.0
 
     def follow(self, actual: Commands, wanted: Commands, elapsed: float) -> Commands:
@@ -95,6 +110,10 @@ class Actuators(ActuatorLaw):
             wanted.phase,
             lagging(actual.equivalence_ratio, wanted.equivalence_ratio, elapsed, self.fuel_lag),
             lagging(actual.intake_temperature, wanted.intake_temperature, elapsed, self.intake_lag),
+            wanted.sets_force,
+            wanted.force,
+            wanted.spark_advance,
+            wanted.spring_pressure,
         )
 
     def motor_power(self, mechanical: float) -> float:

@@ -1,18 +1,22 @@
 """Parts of a controller as laws: compiled by themselves, asked by the kernel at dead centres.
 
-A controller has five parts and stands behind actuators. Each part may keep :data:`MEMORY` numbers
-in `memory` from one dead centre to the next; they begin at zero.
+A controller has five parts that act at dead centres and stands behind actuators. Each part may keep
+:data:`MEMORY` numbers in `memory` from one dead centre to the next; they begin at zero. Within the
+stroke a part of its own, shown what a sensor measures, may set the force of the alternator through
+its converter; both keep :data:`SAMPLE_MEMORY` numbers from sample to sample.
 """
 
 from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from saleg.laws.arguments import Commands, Drive, Signals
+from saleg.laws.arguments import Commands, Drive, ForceCommand, Instant, Signals
 from saleg.laws.base import Law
 
 #: Numbers a part may keep.
 MEMORY = 4
+#: Numbers a part that acts at samples may keep.
+SAMPLE_MEMORY = 20
 
 
 class StateLogic(Law):
@@ -90,7 +94,49 @@ class ActuatorLaw(Law):
         raise NotImplementedError
 
 
+class ConverterLaw(Law):
+    """The converter between a commanded force of the alternator and its DC bus."""
+
+    slot = "converter"
+    compiled = ("force", "power")
+
+    def force(self, wanted: float, v: float) -> float:
+        """Force on the translator [N] that comes of the one wanted, at a velocity [m/s]."""
+        raise NotImplementedError
+
+    def power(self, force: float, v: float) -> float:
+        """Power delivered to the DC bus [W]; negative where it is drawn from it."""
+        raise NotImplementedError
+
+
+class PositionSensorLaw(Law):
+    """The position a controller is shown at its samples.
+
+    A sensor has a field `sample_time` [s].
+    """
+
+    slot = "position_sensor"
+    compiled = ("measured",)
+
+    def measured(self, memory: Any, x: float) -> float:
+        """Position measured [m]."""
+        raise NotImplementedError
+
+
+class ForceControl(Law):
+    """Force of the alternator at samples within the stroke."""
+
+    slot = "force_control"
+    compiled = ("push",)
+
+    def push(self, memory: Any, instant: Instant) -> ForceCommand:
+        """Force until the next sample."""
+        raise NotImplementedError
+
+
 #: Slots of a controller, by name, in the order they are asked.
 CONTROL_SLOTS: dict[str, type[Law]] = {
     law.slot: law for law in (StateLogic, MotorControl, LoadControl, FuelControl, IntakeControl)
 }
+#: Slots of a controller that act at samples, in the order they are asked.
+SAMPLED_SLOTS: dict[str, type[Law]] = {law.slot: law for law in (PositionSensorLaw, ForceControl)}

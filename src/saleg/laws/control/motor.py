@@ -92,3 +92,29 @@ class SteadyMotor(MotorControl):
     def drive(self, memory: Any, signals: Signals) -> Drive:
         """Force until the next dead centre."""
         return Drive(self.amplitude, self.frequency, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhaseLockedMotor(MotorControl):
+    """A sine in phase with the motion, at the frequency of the latest stroke.
+
+    From any frequency it is at resonance once the motion has turned twice: the force is zero at a
+    dead centre and pushes along from there on, and the motion keeps its own time.
+
+    Parameters
+    ----------
+    base_frequency : float
+        Frequency until the first stroke is measured [Hz], below or above resonance.
+    amplitude : float
+        Amplitude of the force [N].
+    """
+
+    base_frequency: float = quantity("Hz", default=30.0, low=0, high=1e4, usual=FREQUENCY)
+    amplitude: float = quantity("N", default=264.0, low=0, usual=SMALL_FORCE)
+
+    def drive(self, memory: Any, signals: Signals) -> Drive:
+        """Force until the next dead centre."""
+        if signals.frequency == 0.0:
+            return Drive(self.amplitude, self.base_frequency, 0.0, 0.0, 0.0)
+        along = 0.0 if signals.direction >= 0.0 else math.pi
+        return Drive(self.amplitude, signals.frequency, 0.0, 1.0, along)
