@@ -8,6 +8,7 @@ import saleg
 import saleg.compiler
 from saleg import LawError
 from saleg.compiler import machine_code, search
+from saleg.compiler.compiled_engine import IDLE_COMMANDED
 from saleg.compiler.module import load
 from saleg.compiler.text import INTEGRATOR, REFERENCE, compose, compose_search, own_text
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
@@ -20,7 +21,7 @@ def text(base):
 
 def classes_of(engine):
     sides = [type(side.laws[slot]) for side in engine.chambers for slot in CHAMBER_SLOTS]
-    rest = [*(getattr(engine, slot) for slot in ENGINE_SLOTS), saleg.laws.Actuators()]
+    rest = [*(getattr(engine, slot) for slot in ENGINE_SLOTS), *IDLE_COMMANDED]
     return [*sides, *map(type, rest)]
 
 

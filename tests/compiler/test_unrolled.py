@@ -54,12 +54,10 @@ def test_a_step_is_of_fifth_order_and_leaves_alone_what_nobody_needs(motored, cu
 
 
 def test_an_engine_needs_what_its_laws_ask_for():
-    assert Needs.of([Woschni, LinearLoad], motored_pressure=False) == (False, False, frozenset())
-    assert Needs.of([Woschni, CircuitAlternator], motored_pressure=True) == (
-        True,
-        True,
-        frozenset(),
-    )
+    plain = Needs.of([Woschni, LinearLoad], motored_pressure=False)
+    assert plain == Needs(motored_pressure=False, current=False)
+    circuit = Needs.of([Woschni, CircuitAlternator], motored_pressure=True)
+    assert circuit == Needs(motored_pressure=True, current=True)
 
 
 def test_a_step_takes_along_the_states_that_laws_ask_for():
@@ -67,7 +65,7 @@ def test_a_step_takes_along_the_states_that_laws_ask_for():
     assert needs.chambers == {"contents"}
     h = 0.1
     y, y_new, _ = step_of(needs, h)
-    contents, totals = slice(layout.FUEL, layout.WALL), slice(layout.SUPPLIED, layout.N_ALL)
+    contents, totals = slice(layout.FUEL, layout.WALL), slice(layout.SUPPLIED, layout.MOUNT_LOSS)
     # Their rate is the time here, as that of all entries beyond the first states.
     assert y_new[contents] == pytest.approx(y[contents] + h**2 / 2, rel=1e-14)
     assert y_new[totals] == pytest.approx(y[totals] + h**2 / 2, rel=1e-14)
