@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saleg.batch.many import steady_states
-from saleg.checks import a, checked
+from saleg.checks import SERIES, a, checked
 from saleg.control.maps import fuel_map, intake_map
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
@@ -77,7 +77,12 @@ class PartLoadMap:
             write_table(file, labelled(self.table))
 
 
-@checked(engine=a(Engine))
+@checked(
+    engine=a(Engine),
+    values=a(Mapping).optional,
+    powers=SERIES.optional,
+    margins=a(Mapping),
+)
 def part_load_map(
     engine: Engine,
     values: Mapping[str, Sequence[float]] | None = None,

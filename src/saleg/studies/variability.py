@@ -53,6 +53,7 @@ FEWEST = 3
     seeds=whole(1, 1_000_000),
     duration=POSITIVE,
     settling=number(low=0.0),
+    workers=whole(1).optional,
 )
 def variability(
     engine: Engine,
