@@ -138,10 +138,10 @@ def test_two_engines_in_antiphase_leave_their_frame_at_rest(base):
     assert pair.frame["x"].abs().max() < 1e-9
     assert pair.frame["force"].abs().max() < 1e-3
     assert len(alone.strokes) > 10
-    for run in pair.runs:
+    for run, sides in zip(pair.runs, (slice(None), slice(None, None, -1)), strict=True):
         np.testing.assert_allclose(run.strokes["duration"], alone.strokes["duration"], rtol=1e-7)
-        assert run.performance.peak_pressure == pytest.approx(
-            alone.performance.peak_pressure, rel=1e-2
+        np.testing.assert_allclose(
+            run.strokes["peak_pressure"][:, sides], alone.strokes["peak_pressure"], rtol=1e-4
         )
 
 

@@ -1,10 +1,21 @@
-"""Assumptions that machines share where their sources say nothing: ports and crankcase."""
+"""Assumptions that machines share where their sources say nothing: ports, crankcase, losses."""
 
 from __future__ import annotations
 
 import math
 
-from saleg.laws import Crankcase, PortFlow
+from saleg.engine import Cylinder, Engine, Intake, Translator
+from saleg.laws import (
+    Crankcase,
+    Hohenberg,
+    LinearLoad,
+    LinearSprings,
+    PortFlow,
+    RingLeak,
+    SparkAtClearance,
+    ViscousFriction,
+    Wiebe,
+)
 
 #: Shares of the circumference that exhaust and intake windows take: of the half or so that ribs
 #: between windows and guided rings leave, a little more for the exhaust, as two-strokes have it.
@@ -78,3 +89,61 @@ def drawn_temperature(temperature: float, pressure_ratio: float) -> float:
     float
     """
     return temperature * pressure_ratio ** (1.0 / GAMMA - 1.0)
+
+
+def small_two_stroke(
+    name: str,
+    *,
+    bore: float,
+    half_stroke: float,
+    port_closing: float,
+    mass: float,
+    stiffness: float,
+    combustion_duration: float,
+    pressure_ratio: float,
+    temperature: float,
+    load_constant: float,
+) -> Engine:
+    """Two small spark-ignited cylinders, scavenged from under their pistons; fuel is not filled in.
+
+    Parameters
+    ----------
+    name : str
+    bore, half_stroke, port_closing : float
+        [m].
+    mass : float
+        Moving mass [kg].
+    stiffness : float
+        Of one spring [N/m].
+    combustion_duration : float
+        [s].
+    pressure_ratio, temperature : float
+        Of the charge compressed under a piston [-, K].
+    load_constant : float
+        [N s/m].
+
+    Returns
+    -------
+    Engine
+    """
+    cylinder = Cylinder(
+        bore=bore,
+        half_stroke=half_stroke,
+        port_closing=port_closing,
+        wall_temperature=450.0,
+        intake=Intake(1e5, drawn_temperature(temperature, pressure_ratio)),
+        heat_transfer=Hohenberg(a=130.0),
+        heat_release=Wiebe(combustion_duration=combustion_duration),
+        ignition=SparkAtClearance(clearance=4e-3),
+        gas_exchange=ports(bore, port_closing, 2.0 * half_stroke),
+        supply=crankcase(bore, half_stroke, pressure_ratio),
+        leak=RingLeak(gap=1e-8),
+    )
+    return Engine.mirrored(
+        Translator(mass=mass),
+        cylinder,
+        springs=LinearSprings(stiffness=stiffness),
+        friction=ViscousFriction(coefficient=12.0),
+        alternator=LinearLoad(load_constant=load_constant, efficiency=0.9, regulator_gain=0.0),
+        name=name,
+    )

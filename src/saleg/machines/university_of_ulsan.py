@@ -12,21 +12,10 @@ times the charge. The stiffness is that of one spring, with one of them to eithe
 from __future__ import annotations
 
 from saleg import fuels
-from saleg.engine import Cylinder, Engine, Intake, Translator
-from saleg.laws import (
-    Hohenberg,
-    LinearLoad,
-    LinearSprings,
-    RingLeak,
-    SparkAtClearance,
-    ViscousFriction,
-    Wiebe,
-)
+from saleg.engine import Engine
 from saleg.machines import assumed
 from saleg.machines.published import OpenQuantity, Published, PublishedMachine
 
-BORE, HALF_STROKE, PORT = 0.030, 0.0155, 0.018
-PRESSURE_RATIO, TEMPERATURE = 1.1, 300.0
 SOFT, STIFF = {"springs.stiffness": 0.0}, {"springs.stiffness": 14.7e3}
 
 
@@ -42,26 +31,17 @@ def ulsan(stiffness: float = 2.9e3) -> Engine:
     -------
     Engine
     """
-    cylinder = Cylinder(
-        bore=BORE,
-        half_stroke=HALF_STROKE,
-        port_closing=PORT,
-        wall_temperature=450.0,
-        intake=Intake(1e5, assumed.drawn_temperature(TEMPERATURE, PRESSURE_RATIO)),
-        heat_transfer=Hohenberg(a=130.0),
-        heat_release=Wiebe(combustion_duration=3e-3),
-        ignition=SparkAtClearance(clearance=4e-3),
-        gas_exchange=assumed.ports(BORE, PORT, 2.0 * HALF_STROKE),
-        supply=assumed.crankcase(BORE, HALF_STROKE, PRESSURE_RATIO),
-        leak=RingLeak(gap=1e-8),
-    )
-    engine = Engine.mirrored(
-        Translator(mass=0.8),
-        cylinder,
-        springs=LinearSprings(stiffness=stiffness),
-        friction=ViscousFriction(coefficient=12.0),
-        alternator=LinearLoad(load_constant=76.3, efficiency=0.9, regulator_gain=0.0),
-        name="ulsan",
+    engine = assumed.small_two_stroke(
+        "ulsan",
+        bore=0.030,
+        half_stroke=0.0155,
+        port_closing=0.018,
+        mass=0.8,
+        stiffness=stiffness,
+        combustion_duration=3e-3,
+        pressure_ratio=1.1,
+        temperature=300.0,
+        load_constant=76.3,
     )
     return fuels.fill(engine, fuels.propane, equivalence_ratio=1.0)
 

@@ -10,21 +10,10 @@ The equivalence ratio is that which releases the 25 J a stroke that the table gi
 from __future__ import annotations
 
 from saleg import fuels
-from saleg.engine import Cylinder, Engine, Intake, Translator
-from saleg.laws import (
-    Hohenberg,
-    LinearLoad,
-    LinearSprings,
-    RingLeak,
-    SparkAtClearance,
-    ViscousFriction,
-    Wiebe,
-)
+from saleg.engine import Engine
 from saleg.machines import assumed
 from saleg.machines.published import OpenQuantity, Published, PublishedMachine
 
-BORE, HALF_STROKE, PORT = 0.0364, 0.025, 0.019
-PRESSURE_RATIO, TEMPERATURE = 1.35, 341.0
 #: Equivalence ratio that releases 25 J a stroke [-].
 RATIO_OF_25_J = 0.55
 
@@ -36,26 +25,17 @@ def wvu() -> Engine:
     -------
     Engine
     """
-    cylinder = Cylinder(
-        bore=BORE,
-        half_stroke=HALF_STROKE,
-        port_closing=PORT,
-        wall_temperature=450.0,
-        intake=Intake(1e5, assumed.drawn_temperature(TEMPERATURE, PRESSURE_RATIO)),
-        heat_transfer=Hohenberg(a=130.0),
-        heat_release=Wiebe(combustion_duration=2.85e-3),
-        ignition=SparkAtClearance(clearance=4e-3),
-        gas_exchange=assumed.ports(BORE, PORT, 2.0 * HALF_STROKE),
-        supply=assumed.crankcase(BORE, HALF_STROKE, PRESSURE_RATIO),
-        leak=RingLeak(gap=1e-8),
-    )
-    engine = Engine.mirrored(
-        Translator(mass=2.5),
-        cylinder,
-        springs=LinearSprings(stiffness=0.0),
-        friction=ViscousFriction(coefficient=12.0),
-        alternator=LinearLoad(load_constant=65.3, efficiency=0.9, regulator_gain=0.0),
-        name="wvu",
+    engine = assumed.small_two_stroke(
+        "wvu",
+        bore=0.0364,
+        half_stroke=0.025,
+        port_closing=0.019,
+        mass=2.5,
+        stiffness=0.0,
+        combustion_duration=2.85e-3,
+        pressure_ratio=1.35,
+        temperature=341.0,
+        load_constant=65.3,
     )
     return fuels.fill(engine, fuels.iso_octane, equivalence_ratio=RATIO_OF_25_J)
 

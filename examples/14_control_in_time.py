@@ -1,6 +1,6 @@
 """Control within the stroke: start-up by a push along the motion: cold, after a stall, by 110 N.
 
-Run with ``python examples/18_control_in_time.py``; it draws nothing.
+Run with ``python examples/14_control_in_time.py``; it draws nothing.
 """
 
 from dataclasses import dataclass
