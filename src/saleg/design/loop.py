@@ -24,7 +24,7 @@ from saleg.design.results import DesignedState
 from saleg.engine import Engine, Translator, warn_of_unusual
 from saleg.engine.start import CompressedCharge
 from saleg.kernel import layout
-from saleg.kernel.orbit import read_vector, write_vector
+from saleg.kernel.vector import read_vector, write_vector
 from saleg.quantities import Problem
 from saleg.simulation.course import STEPS_PER_CALL
 from saleg.simulation.initial_state import State, prepare

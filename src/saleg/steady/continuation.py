@@ -19,7 +19,7 @@ from saleg.engine import Engine, check_engine
 from saleg.engine.paths import unit_of
 from saleg.errors import SalegError, shown
 from saleg.kernel import layout
-from saleg.kernel.orbit import Z_CHAMBERS
+from saleg.kernel.vector import Z_CHAMBERS
 from saleg.quantities import as_float, is_number, is_whole
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS

@@ -19,11 +19,11 @@ from saleg.compiler.kernel import Kernel
 from saleg.engine import BounceChamber, Chamber, Engine, OpenEnd
 from saleg.kernel import layout, tableaus
 from saleg.kernel.differences import Differences
-from saleg.kernel.orbit import (
-    CYCLE,
-    DEPTH,
-    FIND,
-    IMAGE,
+from saleg.kernel.extrapolation import DEPTH
+from saleg.kernel.orbit import CYCLE, FIND, IMAGE, strokes_per_map
+from saleg.kernel.orbits import Searches
+from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
+from saleg.kernel.vector import (
     Z_AMPERES,
     Z_BURN_PHASE,
     Z_CHAMBERS,
@@ -46,11 +46,8 @@ from saleg.kernel.orbit import (
     Z_WALL,
     mirror,
     read_vector,
-    strokes_per_map,
     write_vector,
 )
-from saleg.kernel.orbits import Searches
-from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
 from saleg.laws import NoHeatTransfer, NoMisfires, NoScatter
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
 from saleg.laws.base import Alternator, Law
