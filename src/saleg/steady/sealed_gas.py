@@ -22,7 +22,8 @@ from saleg.kernel.vector import Z_CHAMBERS, Z_LN_MOTORED, Z_LN_PRESSURE, read_ve
 from saleg.laws.base import GasProperties
 from saleg.simulation.initial_rows import States
 from saleg.simulation.initial_state import State
-from saleg.steady.return_map import DIFFERENCE, ReturnMap, constant_entries, is_adiabatic
+from saleg.steady.entries import constant_entries, is_adiabatic
+from saleg.steady.return_map import DIFFERENCE, ReturnMap
 
 
 def with_sealed_charges(return_map: ReturnMap, given: State, z: np.ndarray) -> np.ndarray:
