@@ -1,8 +1,9 @@
 """Greatest values within a stroke, located between the ends of steps.
 
 A quantity whose rate changes from rising to falling within a step has its peak inside it. The
-peak is approached by one further step to where a cubic has its maximum, and read off a second
-cubic between there and the nearer end.
+peak is approached by shorter steps to where a cubic has its maximum, until the cubic is right
+about the value there, and read off a last cubic between there and the nearer end. What the ends of
+steps show counts in any case.
 """
 
 from math import sqrt
@@ -11,6 +12,7 @@ from saleg.kernel.breathing import breathes, dilution, has_own_pressure
 from saleg.kernel.events import cubic, pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    BURNING,
     FUEL,
     G0,
     N_PEAKS,
@@ -28,12 +30,16 @@ from saleg.kernel.needs import N_WANTED
 from saleg.kernel.rhs import rhs
 from saleg.kernel.state import clearance_of
 from saleg.kernel.step import take_step
-from saleg.laws.choice import any_of, where
+from saleg.laws.choice import where
 
 # Share of the greatest value so far below which both ends of a step promise no greater one within.
 PROMISING = 0.7
-# Slope, over the mean one of a step, that is surely of one sign though only estimated.
-CLEARLY = 0.3
+# Share of the slope of the step before from which a rise goes on beyond the end of a step: with a
+# peak within, it is at most half of it for a parabola.
+GOES_ON_RISING = 0.8
+# How near a cubic must come to the value at its maximum, relatively, and how often it is tried.
+CLOSE = 1e-4
+LOOKS = 5
 
 
 @inline
@@ -74,12 +80,13 @@ def known_rate(C, peak, y, dy):
 
 
 @compiled
-def found_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
+def found_rate(P, E, C, peak, t, way, y, dy, spare_y, spare_dy, motored):
     """Time derivative of acceleration or pressure rise, by a difference along the solution.
 
-    An exact one would need the derivative of every law.
+    An exact one would need the derivative of every law. `way` is 1 for a difference with what
+    follows, -1 for one with what was before: at either end of a step it stays within.
     """
-    dt = 1e-6 * E.length_scale / E.speed_scale
+    dt = way * 1e-6 * E.length_scale / E.speed_scale
     for n in range(N_STATE):
         spare_y[n] = y[n] + dt * dy[n]
     for n in range(FUEL, min(SUPPLIED, N_WANTED)):
@@ -150,6 +157,7 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
             if O.peaks > 1:
                 expected = may_peak(C, peak, h, y, k[0], y_new, k[last], peaks, spare.trail)
                 spare.trail[peak] = watched(C, peak, y, k[0])
+                peaks[peak] = max(peaks[peak], spare.trail[peak])
                 if expected:
                     approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
         elif is_passed(C, peak, y, k[0], y_new, k[last]):
@@ -166,55 +174,71 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
 
 
 @inline
+def is_burning(C, peak):
+    """Whether combustion drives a watched quantity: in its chamber, or in either."""
+    left, right = C[0].mode == BURNING, C[1].mode == BURNING
+    if peak == PEAK_ACCELERATION:
+        return left | right
+    return left if peak % 2 == 0 else right
+
+
+@inline
 def may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, trail):
     """Whether a quantity without a known rate may have a new peak within a step.
 
-    A guess from its values here and at the begin of the step before (in `trail`, whose last entry
-    is the length of that step, 0 if it does not lead up to this one); it costs no evaluation.
+    Its values here and at the begin of the step before (in `trail`, whose last entry is the length
+    of that step, 0 if it does not lead up to this one) rule most steps out; it costs no evaluation.
     """
     before, h_before = trail[peak], trail[N_PEAKS]
     q0, q1 = watched(C, peak, y, dy), watched(C, peak, y_new, dy_new)
-    expected = max(q0, q1) > PROMISING * peaks[peak]
-    if any_of(expected & (h_before > 0.0)):
-        slope, slope_before = (q1 - q0) / h, (q0 - before) / h_before
-        at_begin = (slope_before * h + slope * h_before) / (h + h_before)
-        at_end = slope + (slope - at_begin)
-        turns = (at_begin > -CLEARLY * abs(slope)) & (at_end < CLEARLY * abs(slope))
-        expected = expected & ((h_before <= 0.0) | turns)
-    return expected
+    begins = h_before <= 0.0
+    slope, slope_before = (q1 - q0) / h, (q0 - before) / where(begins, h, h_before)
+    reach = q0 + h * max(slope_before, 0.0)
+    high = (q0 > PROMISING * peaks[peak]) | (q1 > PROMISING * peaks[peak]) | (reach > peaks[peak])
+    slows = where(slope_before > 0.0, slope < GOES_ON_RISING * slope_before, slope > 0.0)
+    return begins | (high & (slows | is_burning(C, peak)))
 
 
 @compiled
-def value_and_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored):
-    """A watched quantity and its time derivative."""
+def value_and_rate(P, E, C, peak, t, way, y, dy, spare_y, spare_dy, motored):
+    """A watched quantity and its time derivative, on the later or the earlier side of a time."""
     value = watched(C, peak, y, dy)
     if is_costly(peak):
-        return value, found_rate(P, E, C, peak, t, y, dy, spare_y, spare_dy, motored)
+        return value, found_rate(P, E, C, peak, t, way, y, dy, spare_y, spare_dy, motored)
     rate = known_rate(C, peak, y, dy)
     return value, rate if peak == PEAK_VELOCITY else rate * value
 
 
 @compiled
 def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
-    """Locate a peak within a step by a shorter step of the same method, and a cubic from there."""
+    """Locate a peak within a step by shorter steps of the same method, and a cubic from there."""
     t, motored = E.t, O.motored
     last = tableau.b.shape[0]
     spare_y, spare_dy, spare_k, inner = spare.y, spare.dy, spare.rates, spare.y_new
-    q0, r0 = value_and_rate(P, E, C, peak, t, y, k[0], spare_y, spare_dy, motored)
+    low, high = 0.0, h
+    q0, r0 = value_and_rate(P, E, C, peak, t, 1.0, y, k[0], spare_y, spare_dy, motored)
     if r0 <= 0.0:
         return
-    q1, r1 = value_and_rate(P, E, C, peak, t + h, y_new, k[last], spare_y, spare_dy, motored)
-    if r1 > 0.0:
-        return
-    s = top_of_cubic(q0, r0, q1, r1, h)
-    for n in range(N_WANTED):
-        spare_k[0, n] = k[0, n]
-    take_step(P, E, C, O, tableau, t, s, y, spare_k, inner)
-    q, r = value_and_rate(P, E, C, peak, t + s, inner, spare_k[last], spare_y, spare_dy, motored)
-    peaks[peak] = max(peaks[peak], q0, q, q1)
-    if r > 0.0 and s < h:
-        rest = top_of_cubic(q, r, q1, r1, h - s)
-        peaks[peak] = max(peaks[peak], cubic(q, r, q1, r1, h - s, rest))
-    elif r < 0.0 and s > 0.0:
-        rest = top_of_cubic(q0, r0, q, r, s)
-        peaks[peak] = max(peaks[peak], cubic(q0, r0, q, r, s, rest))
+    q1, r1 = value_and_rate(P, E, C, peak, t + h, -1.0, y_new, k[last], spare_y, spare_dy, motored)
+    peaks[peak] = max(peaks[peak], q0, q1)
+    for _ in range(LOOKS):
+        if r0 <= 0.0 or r1 > 0.0:
+            return
+        way = top_of_cubic(q0, r0, q1, r1, high - low)
+        top, s = cubic(q0, r0, q1, r1, high - low, way), low + way
+        if top < PROMISING * peaks[peak] or not low < s < high:
+            return
+        for n in range(N_WANTED):
+            spare_k[0, n] = k[0, n]
+        take_step(P, E, C, O, tableau, t, s, y, spare_k, inner)
+        now, dy = t + s, spare_k[last]
+        q, r = value_and_rate(P, E, C, peak, now, 1.0, inner, dy, spare_y, spare_dy, motored)
+        peaks[peak] = max(peaks[peak], q)
+        if r > 0.0:
+            low, q0, r0 = s, q, r
+        else:
+            high, q1, r1 = s, q, r
+        if abs(top - q) <= CLOSE * q:
+            rest = top_of_cubic(q0, r0, q1, r1, high - low)
+            peaks[peak] = max(peaks[peak], cubic(q0, r0, q1, r1, high - low, rest))
+            return

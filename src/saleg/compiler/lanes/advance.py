@@ -80,10 +80,12 @@ def something_peaks(C, S, y, y_new, k):
 
 @inline
 def leave_trail(C, S, plain, y, dy):
-    """Remember the watched quantities without a known rate at the begin of a step."""
+    """Remember the watched quantities without a known rate at the begin of a step: they count."""
     for peak in range(N_PEAKS):
         if is_costly(peak):
-            S.trail[peak] = where(plain, watched(C, peak, y, dy), S.trail[peak])
+            value = watched(C, peak, y, dy)
+            S.trail[peak] = where(plain, value, S.trail[peak])
+            S.peaks[peak] = where(plain, max(S.peaks[peak], value), S.peaks[peak])
     S.trail[N_PEAKS] = where(plain, S.h, S.trail[N_PEAKS])
 
 
@@ -163,7 +165,7 @@ def put_in(group, lane):
 def take_out(group, lane):
     """Copy a lane out of the rows."""
     rows, flat, runs = group.rows, group.flat, group.runs
-    step, trail = group.step[lane, 0], runs.scratch.spare.trail[lane]
+    step, peaks, trail = group.step[lane, 0], runs.peaks[lane], runs.scratch.spare.trail[lane]
     take(rows.step, lane, WIDTH, flat.step[lane, :UNWATCHED])
     take(rows.engine, lane, WIDTH, flat.engine[lane, :N_CHANGING])
     take(rows.y, lane, WIDTH, runs.y[lane, :N_WANTED])
@@ -175,6 +177,8 @@ def take_out(group, lane):
         take(rows.step, lane, WIDTH, flat.step[lane])
         for n in range(N_PEAKS + 1):
             trail[n] = step.trail[n]
+        for peak in range(N_PEAKS):
+            peaks[peak] = step.peaks[peak]
 
 
 @inline
