@@ -1,10 +1,14 @@
 """Optimising engines: rows are those of the design loop, and presets are what they say."""
 
+from dataclasses import replace
+
 import numpy as np
+import pandas as pd
 import pytest
 
 import saleg
 from saleg import optimize as o
+from saleg.steady import lanes
 
 
 def test_presets_keep_fuel_that_finds_no_air_out():
@@ -55,3 +59,15 @@ def test_paths_of_a_design_and_of_an_engine_are_parameters():
         alone = saleg.steady_state(engine.replace(egr=share)).performance
         assert table.power[row] == pytest.approx(alone.power, rel=1e-9)
     assert problem.candidate({"egr": 0.2}) == engine.replace(egr=0.2)
+
+
+def test_one_seed_is_one_result_whoever_works_and_whatever_was_compiled(monkeypatch):
+    """Generations of designs are neither searched for side by side nor along lines of a piece."""
+    thesis = o.thesis_problem(target_power=4e3)
+    problem = replace(thesis, bounds={"bore": thesis.bounds["bore"]})
+    method = o.GeneticAlgorithm(size=40, generations=2)
+    plain = o.optimize(problem, method, 60, seed=1, workers=1)
+    monkeypatch.setattr(lanes, "MANY", 2)
+    monkeypatch.setattr(lanes, "kernel_of_lanes", None)  # not to be called
+    again = o.optimize(problem, method, 60, seed=1, workers=3)
+    pd.testing.assert_frame_equal(again.table, plain.table, check_exact=True)

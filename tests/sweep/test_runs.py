@@ -9,6 +9,7 @@ import pytest
 import saleg
 from helpers import falls, single_piston
 from saleg import sweep
+from saleg.steady import lanes
 
 
 def test_every_point_is_a_row():
@@ -56,3 +57,11 @@ def test_a_sweep_of_a_single_piston_engine_has_the_figures_of_its_steady_states(
         assert row.power == pytest.approx(alone.performance.power, rel=1e-5)
         assert row.compression_ratio == pytest.approx(alone.performance.compression_ratio, rel=1e-5)
         assert row.largest_multiplier == pytest.approx(abs(alone.multipliers[0]), abs=1e-4)
+
+
+def test_a_sweep_in_a_folder_does_not_ask_what_has_been_compiled(base, tmp_path, monkeypatch):
+    monkeypatch.setattr(lanes, "MANY", 2)
+    monkeypatch.setattr(lanes, "kernel_of_lanes", None)  # not to be called
+    points = sweep.sobol({"bore": (0.06, 0.07), "egr": (0.1, 0.2)}, 8)
+    table = sweep.run(points, base, folder=tmp_path / "kept", multipliers=False)
+    assert (table.status == "steady").all()

@@ -31,6 +31,7 @@ from saleg.simulation.performance import Performance, cycle_figures
 from saleg.simulation.plausibility import is_remarkable, remarks_on
 from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
+from saleg.steady.lanes import UNKNOWN
 from saleg.steady.many import Orbits, steady_rows, verdicts
 from saleg.steady.solver import Effort, check_effort, check_tolerance, found_steady_state
 from saleg.steady.stabilities import stabilities
@@ -117,9 +118,8 @@ def steady_states(
     check_flag("multipliers", multipliers)
     check_workers(executor, workers)
     count = len(engines) if isinstance(engines, Sequence) else None
-    work = partial(
-        _steady_piece, rtol=rtol, multipliers=multipliers, effort=effort, total=count or 0
-    )
+    total = UNKNOWN if count is None else max(count, UNKNOWN)
+    work = partial(_steady_piece, rtol=rtol, multipliers=multipliers, effort=effort, total=total)
     units = STABILITY_UNITS if multipliers else STEADY_UNITS
     if chunk is None:
         chunk = suitable_chunk(count)

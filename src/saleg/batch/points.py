@@ -57,6 +57,8 @@ class Evaluation:
         gets one of its own.
     chunk, executor, workers
         As for :func:`saleg.steady_states`.
+    told : callable
+        Makes of the number of points what the search is told it is, see :mod:`saleg.steady.lanes`.
 
     Attributes
     ----------
@@ -83,6 +85,7 @@ class Evaluation:
         chunk: int | None,
         executor: Executor | None,
         workers: int | None,
+        told: Callable[[int], int] = int,
     ):
         _check(points, evaluated)
         check_workers(executor, workers, 1 if chunk is None else chunk)
@@ -93,7 +96,7 @@ class Evaluation:
         self._result_units = evaluated.units
         self._pieces = partial(
             in_pieces,
-            partial(_rows, solver, total=len(points)),
+            partial(_rows, solver, total=told(len(points))),
             chunk=self.chunk,
             executor=executor,
             workers=workers,

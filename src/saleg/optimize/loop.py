@@ -78,7 +78,8 @@ def optimize(
     evaluations : int
         Designs at most.
     seed : int
-        The same seed gives the same designs.
+        The same seed gives the same designs, whoever does the work and whatever has been compiled
+        before.
     folder : str or Path, optional
         Where every design is kept. An optimisation that was interrupted, or that gets more
         evaluations, goes on from there and ends as one that was not, to the last bit.

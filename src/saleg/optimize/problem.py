@@ -28,6 +28,7 @@ from saleg.optimize.checks import wrong_designs, wrong_fields
 from saleg.optimize.objectives import Objective
 from saleg.optimize.scatter import FIGURES as SCATTER_FIGURES
 from saleg.optimize.scatter import Scatter
+from saleg.steady.lanes import BY_ITSELF
 from saleg.steady.solver import DEFAULT_TOLERANCE, Effort
 
 if TYPE_CHECKING:
@@ -290,13 +291,18 @@ def evaluated(
     executor: Executor | None = None,
     workers: int | None = None,
 ) -> pd.DataFrame:
-    """Rows of points, which may have columns beside the parameters, with all columns in order."""
+    """Rows of points, which may have columns beside the parameters, with all columns in order.
+
+    Each is searched for by itself: what it becomes decides what is tried next, and the last digit
+    must depend neither on who does the work nor on what has been compiled before.
+    """
     import pandas as pd
 
     solver = partial(problem.subject.solver, problem.rtol, multipliers, False, problem.effort)
     at_once = PIECES * (workers or os.cpu_count() or 1)
     chunk = min(max(math.ceil(len(points) / at_once), 1), MOST_TOGETHER)
-    evaluation = Evaluation(points, problem.subject, solver, chunk, executor, workers)
+    work = chunk, executor, workers, _by_itself
+    evaluation = Evaluation(points, problem.subject, solver, *work)
     rows = evaluation.table(dict(evaluation.parts()))
     columns = {name: points[name].to_numpy(dtype=float) for name in points}
     for name in _results(problem.subject, evaluation.input_units):
@@ -304,6 +310,10 @@ def evaluated(
         known = rows[name].to_numpy() if name in rows else np.full(len(rows), MISSING[kind], kind)
         columns[name] = known
     return pd.DataFrame(columns)
+
+
+def _by_itself(_: int) -> int:
+    return BY_ITSELF
 
 
 def scored(table: pd.DataFrame, problem: Problem) -> pd.DataFrame:

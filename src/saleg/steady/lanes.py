@@ -4,7 +4,8 @@ It takes half to two thirds of the time and a kernel of its own, some ten second
 compile. So only batches of :data:`MANY` engines and more that follow no lines go that way, if that
 kernel has been compiled before, and those of :data:`WORTH_COMPILING` in any case. What is found is
 the same within the tolerance, not to the last bit: therefore the whole batch decides, so that
-nothing depends on how it is cut.
+nothing depends on how it is cut. What must be the same on every machine to the last bit (an
+optimisation, a sweep that is gone on with) does not ask what has been compiled before.
 """
 
 from __future__ import annotations
@@ -30,6 +31,16 @@ MANY = 500
 #: Engines in a batch for which it is compiled.
 WORTH_COMPILING = 20_000
 
+#: In place of the number of engines in a batch: each from its own start, beside no other.
+BY_ITSELF = 0
+#: In place of that number, where it is not known: along lines, not side by side.
+UNKNOWN = 1
+
+
+def repeatable(total: int) -> int:
+    """Number of engines in a batch whose results must not depend on what was compiled before."""
+    return total if total >= WORTH_COMPILING else UNKNOWN
+
 
 def find_each(
     return_map: ReturnMap,
@@ -52,7 +63,7 @@ def find_each(
     searches : Searches
         The engines; takes what is found.
     total : int
-        Number of engines in the batch they are a piece of, 0 to search one by one.
+        Number of engines in the batch they are a piece of, :data:`UNKNOWN` or :data:`BY_ITSELF`.
     width : int
         Engines side by side.
 

@@ -26,7 +26,7 @@ from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
 from saleg.status import Status
 from saleg.steady.entries import is_adiabatic
-from saleg.steady.lanes import find_each
+from saleg.steady.lanes import BY_ITSELF, UNKNOWN, find_each
 from saleg.steady.lines import Lines, lines_among, no_lines
 from saleg.steady.return_map import ReturnMap, longest_return, map_tolerance, step_tolerance
 from saleg.steady.sealed_gas import rises_of_theta
@@ -110,7 +110,7 @@ class Orbits(NamedTuple):
         )
 
 
-def steady_rows(rows: Rows, rtol: float, effort: Effort, total: int = 1) -> list[Orbits]:
+def steady_rows(rows: Rows, rtol: float, effort: Effort, total: int = UNKNOWN) -> list[Orbits]:
     """Orbits of those among some engines that have one where the first start leads.
 
     Parameters
@@ -121,7 +121,7 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort, total: int = 1) -> list
         Tolerance of the integrator.
     effort : Effort
     total : int
-        Number of engines in the batch they are a piece of.
+        Number of engines in the batch they are a piece of, as in :mod:`saleg.steady.lanes`.
 
     Returns
     -------
@@ -174,7 +174,7 @@ def searched(
     mirrored: bool,
     rtol: float,
     limits: Limits,
-    total: int = 1,
+    total: int = UNKNOWN,
     tell: Callable[[States, np.ndarray], None] | None = None,
     numbers: np.ndarray | None = None,
 ) -> Orbits | None:
@@ -190,7 +190,7 @@ def searched(
         Tolerance of the integrator.
     limits : Limits
     total : int
-        Number of engines in the batch they are a piece of.
+        Number of engines in the batch they are a piece of, as in :mod:`saleg.steady.lanes`.
     tell : callable, optional
         Writes into the states the search begins with, given whether each row has one.
     numbers : ndarray, shape (n, k), optional
@@ -204,8 +204,9 @@ def searched(
     if tell is not None:
         tell(begin, ready)
     numbers = rows.numbers() if numbers is None else numbers[ready]
-    lines = lines_among(numbers) if _may_follow(rows.engine) else no_lines(rows.count)
-    search = _Search(rows, begin, mirrored, rtol, limits, 0 if lines.any else total)
+    follows = total != BY_ITSELF and _may_follow(rows.engine)
+    lines = lines_among(numbers) if follows else no_lines(rows.count)
+    search = _Search(rows, begin, mirrored, rtol, limits, UNKNOWN if lines.any else total)
     room, good = search.found(lines)
     if lines.any:
         search.check(lines, room, good)
@@ -244,7 +245,7 @@ class _Search(NamedTuple):
     mirrored, rtol, limits
         As for :func:`searched`.
     total : int
-        As there if no engine follows another, else 0: lines are followed one by one.
+        As there if no engine follows another, else UNKNOWN: lines are followed one by one.
     """
 
     rows: Rows

@@ -17,6 +17,7 @@ from saleg.engine import Engine
 from saleg.errors import SweepError
 from saleg.files.reading import as_path, is_folder
 from saleg.simulation.settings import check_flag
+from saleg.steady.lanes import repeatable
 from saleg.steady.solver import DEFAULT_TOLERANCE, Effort, check_effort, check_tolerance
 from saleg.sweep.store import Folder
 from saleg.version import __version__
@@ -112,7 +113,8 @@ def run(
     solver = partial(subject.solver, rtol, multipliers, warm, effort)
     if chunk is None and (warm or folder is not None):
         chunk = CHUNK  # of these the results, and the names of the files, depend on it
-    evaluation = Evaluation(points, subject, solver, chunk, executor, workers)
+    told = int if folder is None else repeatable
+    evaluation = Evaluation(points, subject, solver, chunk, executor, workers, told)
     if folder is None:
         return evaluation.table(dict(_work(evaluation, report)))
     settings = {"rtol": rtol, "multipliers": bool(multipliers), "warm": bool(warm)}
