@@ -1,5 +1,6 @@
 """Steady states of engines searched for side by side are those found one by one."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -42,6 +43,16 @@ class PatchyTransfer(laws.HeatTransfer):
         if any_of(above > 0.0):
             found = where(above > 0.0, 300.0 + 2e-4 * above**2, found)
         return found * where(gas.burning > 0.0, 1.5, 1.0)
+
+
+@dataclass(frozen=True)
+class FunctionsOfNumpy(laws.HeatTransfer):
+    """Heat transfer of a user's by functions of numpy, and a power by a function of math."""
+
+    def coefficient(self, gas, charge):
+        warmth = gas.T / 1000.0
+        rise = np.exp(-warmth) + np.log(1.0 + warmth) + np.arctan(warmth) + np.sin(warmth)
+        return 200.0 * np.sqrt(rise) * math.pow(warmth, 0.3) * np.tanh(1.0 + warmth)
 
 
 def uneven(base):
@@ -101,6 +112,11 @@ def patchy(base):
     return with_laws(base, PatchyTransfer())
 
 
+def by_numpy(base):
+    """Another."""
+    return with_laws(base, FunctionsOfNumpy())
+
+
 def variations(engine: Engine, count: int, spread: float = 0.03):
     """An engine with some numbers changed a little, in many ways."""
     rng = np.random.default_rng(5)
@@ -151,7 +167,7 @@ def test_lanes_find_what_breathing_engines_do_one_by_one(base, at_once):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("choice", [crossed, single_piston, liftoff, patchy])
+@pytest.mark.parametrize("choice", [crossed, single_piston, liftoff, patchy, by_numpy])
 def test_lanes_of_other_laws_too(base, at_once, choice):
     assert assert_lanes_agree(list(variations(choice(base), 12))) > 6
 

@@ -124,8 +124,9 @@ def _say_one_by_one(return_map: ReturnMap, reason: str) -> None:
     if own:
         names = ", ".join(sorted(law.__name__ for law in own))
         warnings.warn(
-            f"engines with {names} are searched for one by one: {reason}; an 'if' on what a law "
-            "is shown can be written with saleg.laws.where",
+            f"engines with {names} are searched for one by one: {reason}; the documentation of own "
+            "laws lists what can be compiled for several engines at once (saleg.laws.where in place "
+            "of an 'if' on what a law is shown)",
             RuntimeWarning,
             stacklevel=2,
         )

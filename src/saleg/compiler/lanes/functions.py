@@ -13,6 +13,7 @@ import operator
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba import njit, types
 from numba.core import cgutils
@@ -252,6 +253,7 @@ def whole_power(exponent: int) -> Callable[..., Any]:
     return power
 
 
+@overload(math.pow, jit_options=OPTIONS)
 @overload(operator.pow, jit_options=OPTIONS, prefer_literal=True)
 @overload(pow, jit_options=OPTIONS, prefer_literal=True)
 def _pow(x, y):
@@ -284,3 +286,17 @@ for _name in (
     *("sinh", "cosh", "tanh", "expm1", "log1p"),
 ):
     _left_to_the_library(_name)
+
+
+def _as_in_math(of_numpy: Any, of_math: Any) -> None:
+    """Let numba know a function of numpy that is one of :mod:`math`."""
+
+    @overload(of_numpy, jit_options=OPTIONS)
+    def choose(x):
+        return (lambda x: of_math(x)) if isinstance(x, Floats) else None
+
+
+for _name in ("exp", "log", "sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "expm1", "log1p"):
+    _as_in_math(getattr(np, _name), getattr(math, _name))
+for _name in ("sin", "cos", "tan"):
+    _as_in_math(getattr(np, f"arc{_name}"), getattr(math, f"a{_name}"))
