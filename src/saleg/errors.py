@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import reprlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 __all__ = [
@@ -184,3 +184,26 @@ def nearest(name: object, known: Iterable[str]) -> str:
     text = name if isinstance(name, str) else shown(name)
     close = difflib.get_close_matches(text, list(dict.fromkeys(known)), n=3, cutoff=0.5)
     return f"; did you mean {' or '.join(map(repr, close))}?" if close else ""
+
+
+def raise_together(kind: type[SalegError], checks: Iterable[Callable[[], Any]]) -> None:
+    """Do some checks, and raise what they raise: several errors as one that names all.
+
+    Parameters
+    ----------
+    kind : type of error
+        Of that one, unless all are of one type.
+    checks : iterable of callable
+    """
+    errors: list[SalegError] = []
+    for check in checks:
+        try:
+            check()
+        except SalegError as error:
+            errors.append(error)
+    if len(errors) == 1:
+        raise errors[0]
+    if errors:
+        kinds = {type(error) for error in errors}
+        lines = "\n".join(f"  {error}" for error in errors)
+        raise (kinds.pop() if len(kinds) == 1 else kind)(f"{len(errors)} are wrong:\n{lines}")

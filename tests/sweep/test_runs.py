@@ -59,6 +59,29 @@ def test_a_sweep_of_a_single_piston_engine_has_the_figures_of_its_steady_states(
         assert row.largest_multiplier == pytest.approx(abs(alone.multipliers[0]), abs=1e-4)
 
 
+def test_all_wrong_arguments_are_named_at_once(base):
+    """Of batches and sweeps: arguments, inputs and ranges; what is no list of engines is no row."""
+    nothing = {"rtol": 2, "chunk": 0, "workers": -1, "effort": None}
+    points = sweep.grid({"bor": [0.06], "strok": [1.0], "bore": [0.06]})
+    calls = {
+        lambda: saleg.steady_states([base], multipliers="yes", **nothing): [*nothing, "mult"],
+        lambda: saleg.design.evaluate_many(points, **nothing): nothing,
+        lambda: sweep.run(points, base, warm="x", **nothing): [*nothing, "warm"],
+        lambda: sweep.run(points, base): ("'bor'", "'strok'"),
+        lambda: sweep.latin_hypercube({"bore": (2, 1), "egr": (0, np.inf)}, -1, "x"): (
+            *("bore", "egr", "count"),
+            "seed",
+        ),
+    }
+    for call, names in calls.items():
+        with pytest.raises(saleg.SalegError) as error:
+            call()
+        assert all(name in str(error.value) for name in names), error.value
+    for engines in ("thesis-base", {"a": base}, base):
+        with pytest.raises(saleg.SalegError, match="must be a list of engines"):
+            saleg.steady_states(engines)
+
+
 def test_a_sweep_in_a_folder_does_not_ask_what_has_been_compiled(base, tmp_path, monkeypatch):
     monkeypatch.setattr(lanes, "MANY", 2)
     monkeypatch.setattr(lanes, "kernel_of_lanes", None)  # not to be called

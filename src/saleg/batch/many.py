@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from saleg.batch.arguments import check_engines, check_search
 from saleg.batch.table import (
     CHUNK,
     Columns,
@@ -22,18 +23,17 @@ from saleg.batch.workers import check_workers
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.engine import Engine, check_engine
 from saleg.engine.columns import Rows, is_usual, rows_by_make
-from saleg.errors import shown
 from saleg.simulation.indicators import closure
 from saleg.simulation.initial_state import prepare
 from saleg.simulation.integration import integrate
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.simulation.performance import Performance, cycle_figures
 from saleg.simulation.plausibility import is_remarkable, remarks_on
-from saleg.simulation.settings import Settings, SettingsError, check_flag
+from saleg.simulation.settings import Settings
 from saleg.status import Status
 from saleg.steady.lanes import UNKNOWN
 from saleg.steady.many import Orbits, steady_rows, verdicts
-from saleg.steady.solver import Effort, check_effort, check_tolerance, found_steady_state
+from saleg.steady.solver import Effort, found_steady_state
 from saleg.steady.stabilities import stabilities
 from saleg.steady.stability import Stability
 from saleg.steady.state import SteadyState
@@ -113,10 +113,9 @@ def steady_states(
     >>> list(table.status)
     ['steady', 'steady']
     """
-    rtol = check_tolerance(rtol)
-    check_effort(effort)
-    check_flag("multipliers", multipliers)
-    check_workers(executor, workers)
+    how, engines_first = (executor, workers, chunk), partial(check_engines, engines)
+    check_search(rtol, effort, *how, engines_first, multipliers=multipliers)
+    rtol = float(rtol)
     count = len(engines) if isinstance(engines, Sequence) else None
     total = UNKNOWN if count is None else max(count, UNKNOWN)
     work = partial(_steady_piece, rtol=rtol, multipliers=multipliers, effort=effort, total=total)
@@ -169,8 +168,7 @@ def batch_table(
 ) -> pd.DataFrame:
     """Table with a row per item and a column per unit, whoever does the work."""
     check_workers(executor, workers, chunk)
-    if not np.iterable(items):
-        raise SettingsError(f"engines = {shown(items)}: must be a list of engines, or the like")
+    check_engines(items)
     parts = in_pieces(
         work,
         items,

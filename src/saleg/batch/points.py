@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from saleg.batch.table import Columns, Row, in_pieces, rows_of, suitable_chunk, table_of
 from saleg.batch.workers import check_workers
-from saleg.errors import SweepError
+from saleg.errors import SweepError, raise_together
 from saleg.quantities import is_number
 
 if TYPE_CHECKING:
@@ -162,8 +162,13 @@ def _check(points: pd.DataFrame, evaluated: Evaluated) -> None:
         raise SweepError("no inputs: the points have no columns")
     if not points.columns.is_unique:
         raise SweepError(f"an input stands twice in {', '.join(map(str, points.columns))}")
-    for name in points:
-        evaluated.unit(str(name))
-        if not all(is_number(value) for value in points[name]):
-            raise SweepError(f"{name}: every value of an input must be a number")
+    checks = [partial(_check_input, name, points[name], evaluated) for name in points]
+    raise_together(SweepError, checks)
     evaluated.refuse_clash(map(str, points))
+
+
+def _check_input(name: Any, values: pd.Series, evaluated: Evaluated) -> None:
+    """Refuse what is no input, or no numbers for one."""
+    evaluated.unit(str(name))
+    if not all(is_number(value) for value in values):
+        raise SweepError(f"{name}: every value of an input must be a number")

@@ -18,9 +18,9 @@ from concurrent.futures import (
 )
 from contextlib import nullcontext
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from saleg.errors import shown
+from saleg.errors import raise_together, shown
 from saleg.quantities import is_whole
 from saleg.simulation.settings import SettingsError
 
@@ -49,9 +49,24 @@ def check_workers(executor: Executor | None, workers: int | None, chunk: int = 1
     ------
     WorkersError
     """
-    for name, value in (("workers", 1 if workers is None else workers), ("chunk", chunk)):
-        if not is_whole(value, 1, 2**31 - 1):
-            raise WorkersError(f"{name} = {shown(value)}: must be a whole number >= 1")
+    raise_together(WorkersError, checks_of_workers(executor, workers, chunk))
+
+
+def checks_of_workers(
+    executor: Executor | None, workers: int | None, chunk: int
+) -> list[Callable[[], None]]:
+    """The checks of :func:`check_workers`, one by one."""
+    numbers = ("workers", 1 if workers is None else workers), ("chunk", chunk)
+    checks: list[Callable[[], None]] = [partial(_check_number, *number) for number in numbers]
+    return [*checks, partial(_check_executor, executor)]
+
+
+def _check_number(name: str, value: Any) -> None:
+    if not is_whole(value, 1, 2**31 - 1):
+        raise WorkersError(f"{name} = {shown(value)}: must be a whole number >= 1")
+
+
+def _check_executor(executor: Any) -> None:
     if executor is not None and (
         isinstance(executor, type) or not callable(getattr(executor, "submit", None))
     ):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from saleg.batch.arguments import check_search
 from saleg.batch.many import STABILITY_UNITS, steady_row
 from saleg.batch.points import Values, evaluated_points, refuse_parts
 from saleg.batch.table import Columns, Row, filled_up
@@ -18,7 +19,7 @@ from saleg.design.designs import Design
 from saleg.design.loop import check_design, solve
 from saleg.design.results import COMPONENT_UNITS, DesignedState
 from saleg.design.together import scores, solved_together
-from saleg.steady.solver import Effort, check_effort, check_tolerance
+from saleg.steady.solver import Effort
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -166,8 +167,7 @@ def evaluate_many(
     >>> list(table.status)
     ['steady', 'invalid']
     """
-    check_tolerance(rtol)
-    check_effort(effort)
+    check_search(rtol, effort, executor, workers, chunk, multipliers=multipliers)
     design = Design() if design is None else design
     check_design(design)
     evaluated = EvaluatedDesign(design)

@@ -125,8 +125,8 @@ def _say_one_by_one(return_map: ReturnMap, reason: str) -> None:
         names = ", ".join(sorted(law.__name__ for law in own))
         warnings.warn(
             f"engines with {names} are searched for one by one: {reason}; the documentation of own "
-            "laws lists what can be compiled for several engines at once (saleg.laws.where in place "
-            "of an 'if' on what a law is shown)",
+            "laws lists what can be compiled for several engines at once (saleg.laws.where in "
+            "place of an 'if' on what a law is shown)",
             RuntimeWarning,
             stacklevel=2,
         )

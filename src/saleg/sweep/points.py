@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.errors import SweepError, shown
+from saleg.errors import SweepError, raise_together, shown
 from saleg.quantities import is_number, is_whole
 
 if TYPE_CHECKING:
@@ -100,6 +101,7 @@ def latin_hypercube(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     import pandas as pd
     from scipy.stats import qmc
 
+    _check_sample(ranges, count, seed)
     low, high = box(ranges)
     unit = qmc.LatinHypercube(len(low), seed=checked_seed(seed)).random(_count(count))
     return pd.DataFrame(low + unit * (high - low), columns=list(ranges))
@@ -129,6 +131,7 @@ def sobol(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
     import pandas as pd
     from scipy.stats import qmc
 
+    _check_sample(ranges, count, seed)
     count = _count(count)
     if count & (count - 1):
         raise SweepError(f"count = {count}: a Sobol' set needs a power of two of points")
@@ -139,14 +142,29 @@ def sobol(ranges: Ranges, count: int, seed: int = 0) -> pd.DataFrame:
 
 def box(ranges: Ranges) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest values of a box, checked."""
-    if not _table(ranges):
-        raise SweepError("ranges are missing")
-    for name, ends in ranges.items():
-        ends = _numbers(name, ends)
-        if len(ends) != 2 or not ends[0] < ends[1] or not all(map(math.isfinite, ends)):
-            raise SweepError(f"{name} = {list(ends)}: must be a lower and a higher finite value")
+    raise_together(SweepError, _checks_of(ranges))
     low, high = np.array([[float(end) for end in ends] for ends in ranges.values()]).T
     return low, high
+
+
+def _check_sample(ranges: Ranges, count: int, seed: int) -> None:
+    """Refuse wrong arguments of a sample, all at once."""
+    others = partial(_count, count), partial(checked_seed, seed)
+    raise_together(SweepError, [*_checks_of(ranges), *others])
+
+
+def _checks_of(ranges: Ranges) -> list[Callable[[], None]]:
+    """Checks of the ranges of a box, one by one."""
+    if not _table(ranges):
+        raise SweepError("ranges are missing")
+    return [partial(_check_range, *item) for item in ranges.items()]
+
+
+def _check_range(name: str, given: Any) -> None:
+    """Refuse what is no lower and higher value."""
+    ends = _numbers(name, given)
+    if len(ends) != 2 or not ends[0] < ends[1] or not all(map(math.isfinite, ends)):
+        raise SweepError(f"{name} = {list(ends)}: must be a lower and a higher finite value")
 
 
 def refuse_too_many(count: int) -> None:

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from saleg.batch.arguments import check_search
 from saleg.batch.points import Evaluation
 from saleg.batch.table import CHUNK, Columns
 from saleg.checks import FUNCTION, checked
@@ -16,9 +17,8 @@ from saleg.design.subjects import Subject, subject_of
 from saleg.engine import Engine
 from saleg.errors import SweepError
 from saleg.files.reading import as_path, is_folder
-from saleg.simulation.settings import check_flag
 from saleg.steady.lanes import repeatable
-from saleg.steady.solver import DEFAULT_TOLERANCE, Effort, check_effort, check_tolerance
+from saleg.steady.solver import DEFAULT_TOLERANCE, Effort
 from saleg.sweep.store import Folder
 from saleg.version import __version__
 
@@ -106,10 +106,8 @@ def run(
     (True, [True, True])
     """
     subject = subject_of(swept)
-    rtol = check_tolerance(rtol)
-    check_effort(effort)
-    check_flag("multipliers", multipliers)
-    check_flag("warm", warm)
+    check_search(rtol, effort, executor, workers, chunk, multipliers=multipliers, warm=warm)
+    rtol = float(rtol)
     solver = partial(subject.solver, rtol, multipliers, warm, effort)
     if chunk is None and (warm or folder is not None):
         chunk = CHUNK  # of these the results, and the names of the files, depend on it
