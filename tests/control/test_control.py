@@ -399,6 +399,11 @@ def test_a_plant_refuses_a_command_and_goes_on(transient):
     plant.advance()
     with pytest.raises(ControllerError, match="equivalence_ratio"):
         plant.command(generator(plant.signals, equivalence_ratio=-1.0))
+    wrong = {"load_weight": -3, "equivalence_ratio": np.nan, "intake_temperature": -5}
+    with pytest.raises(ControllerError) as caught:  # before, load_weight alone
+        plant.command(generator(plant.signals, force="x", **wrong))
+    for part in ("load_weight = -3,", "equivalence_ratio = nan", "temperature = -5", "force = 'x'"):
+        assert part in str(caught.value)
     with pytest.raises(SalegError, match="duration"):
         plant.advance(0.0)
     plant.advance()

@@ -89,7 +89,7 @@ def to_fmu(
     """
     builder = extra("pythonfmu").FmuBuilder
     check_engine(engine)
-    known = Settings(1.0, **settings).checked()
+    known = Settings.of(1.0, settings)
     chosen = main_parameters(engine) if parameters is None else list(parameters)
     for name in chosen:
         if not is_number(get(engine, name)):
