@@ -201,6 +201,7 @@ FLAG = Check(
     "must be True or False",
 )
 TEXT = a(str, wanted="text")
+NAMES = each(TEXT, "names")
 FUNCTION = Check(lambda value: value if callable(value) else None, "must be a function")
 
 

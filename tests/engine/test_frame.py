@@ -189,7 +189,7 @@ def test_wrong_frames_are_named_together(base):
         reference.simulate_on_one_frame([base, on(base, FRAME)], FRAME, 0.1)
     with pytest.raises(saleg.errors.InvalidEngine, match="must be a Frame"):
         reference.simulate_on_one_frame([base], None, 0.1)
-    with pytest.raises(saleg.errors.InvalidEngine, match="engines = .*must be a list of engines"):
+    with pytest.raises(saleg.errors.InvalidEngine, match=r"engines = .*must be a list of engines"):
         reference.simulate_on_one_frame(base, FRAME, 0.1)  # before, a TypeError
     with pytest.raises(saleg.errors.WrongArguments) as found:  # before, the engine alone
         reference.simulate_on_one_frame([base, 3, base.replace(bore=-1)], None, -1, rtol=2)
