@@ -46,6 +46,7 @@ from saleg.control.running import (
     simulate_many,
 )
 from saleg.control.sensors import Sensors
+from saleg.control.tracking import trajectory_tracking
 
 __all__ = [
     "BusEnergy",
@@ -96,4 +97,5 @@ __all__ = [
     "simulate_many",
     "start_up",
     "step_response",
+    "trajectory_tracking",
 ]
