@@ -71,10 +71,10 @@ class TrajectoryTracking(ForceControl):
     forces_right: tuple[float, ...] = series("N", default=(0.0, 0.0), length="positions")
     forces_left: tuple[float, ...] = series("N", default=(0.0, 0.0), length="positions")
     gain: float = quantity("-", default=3.0, low=0)
-    least_way: float = quantity("m", default=0.002, low=0, open_low=True, usual=LENGTH)
+    least_way: float = quantity("m", default=0.003, low=0, open_low=True, usual=LENGTH)
     limit: float = quantity("N", default=1000.0, low=0, usual=SMALL_FORCE)
     learning: float = quantity("-", default=0.05, low=0, high=1)
-    time_constant: float = quantity("s", default=1e-4, low=0, open_low=True, usual=LAG)
+    time_constant: float = quantity("s", default=1.5e-4, low=0, open_low=True, usual=LAG)
     delay: float = quantity("s", default=2.5e-5, low=0)
 
     def push(self, memory: Any, instant: Instant) -> ForceCommand:
