@@ -35,6 +35,7 @@ class ScatteredFuel(FuelControl):
     factors: tuple[float, ...] = series("-", default=(1.0,), low=0)
 
     def equivalence_ratio(self, memory: Any, signals: Signals) -> float:
+        """Equivalence ratio [-]; holds the number of dead centres."""
         factor = self.factors[min(int(memory[0]), len(self.factors) - 1)]
         memory[0] += 1.0
         return factor * signals.rated_equivalence_ratio
@@ -47,6 +48,7 @@ class WithFuel:
         self.controller, self.fuel, self.memory = controller, fuel, np.zeros(4)
 
     def act(self, signals):
+        """Commands at a dead centre."""
         ratio = self.fuel.equivalence_ratio(self.memory, signals)
         return self.controller.act(signals)._replace(equivalence_ratio=ratio)
 
@@ -55,6 +57,7 @@ class Regulator:
     """The stroke regulator (Eq. 59) alone."""
 
     def act(self, signals):
+        """Commands at a dead centre."""
         return generator(signals)
 
 
@@ -64,8 +67,9 @@ def regulated(steady, fuel, seed, duration=DURATION):
 
 
 def fed_back(steady, fuel, seed, duration=DURATION):
-    """Run with the state feedback, of the load at dead centres."""
-    holding = DeadCentreControl(steady, Feedback(scatter=0.1))
+    """Run with the state feedback, of the load at dead centres; it expects the scatter there is."""
+    scatter = 0.1 if isinstance(fuel, ScatteredFuel) else Feedback().scatter
+    holding = DeadCentreControl(steady, Feedback(scatter=scatter))
     return control.simulate(steady.engine, WithFuel(holding, fuel), duration)
 
 
@@ -150,6 +154,7 @@ def failures(steady, strokes: int, run_of) -> dict[str, float]:
 
 
 def main(count: int) -> None:
+    """Print the tables."""
     seeds = range(FIRST_SEED, FIRST_SEED + count)
     rows, failed, efforts = [], [], []
     for name, engine in ENGINES.items():
