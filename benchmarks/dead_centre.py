@@ -1,8 +1,8 @@
 """Dead centres held under scattering fuel and failed charges, by three controllers.
 
 Run with ``python benchmarks/dead_centre.py [COUNT]``: so many runs of 5 s, 20 unless given, with
-the same charges for each controller, seeds 100 and on. What is tuned was tuned on others: the state
-feedback on seeds 1 to 3, the tracking on seeds 0 to 4. Five minutes of one core.
+the same charges for each controller, seeds 100 and on. What is tuned was tuned on others, the
+tracking on seeds 0 to 4. Five minutes of one core.
 """
 
 import sys

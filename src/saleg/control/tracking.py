@@ -9,7 +9,7 @@ import numpy as np
 from saleg.checks import a, checked
 from saleg.laws.control.position_sensor import PositionSensor
 from saleg.laws.control.tracking import TrajectoryTracking
-from saleg.steady.solver import NoSteadyState, SteadyState
+from saleg.steady.state import NoSteadyState, SteadyState
 
 #: Positions of a reference, closest at its dead centres.
 POINTS = 101
