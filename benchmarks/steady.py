@@ -1,7 +1,7 @@
 """Steady states: solved against waited for, one by one, together, in lanes, sweeps, threads.
 
     python benchmarks/steady.py [--designs 1000] [--repeats 5] [--agree 500] [--memory 100000]
-                                [--line 1000] [--grid 100] [--compile 1]
+                                [--line 1000] [--grid 100]
 
 Random designs vary the base case by a fifth. Waiting is 2.5 s of simulation with the same
 integrator at the same tolerance, as the thesis does it; both are timed in turns in one run.
@@ -14,7 +14,6 @@ import os
 import platform
 import subprocess
 import sys
-import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -179,27 +178,6 @@ def at_once(engines, repeats):
     print(f"{len(engines)} rows: {each} ms a row\n")
 
 
-def compilation():
-    """What compiling costs a process with an empty cache folder [s of a processor]."""
-    code = f"""
-import sys; sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
-import steady, time
-def spend(what, function):
-    start = time.process_time(); function(); print(what, f"{{time.process_time() - start:.1f}} s")
-some = list(steady.designs(3))
-spend("first simulate:", lambda: steady.saleg.simulate(steady.BASE, 0.1))
-spend("first steady_state after it:", lambda: steady.saleg.steady_state(steady.BASE))
-spend("first batch after it:", lambda: steady.batch(some, steady.RTOL, False))
-spend("first batch in lanes after it:", lambda: steady.batch(some, steady.RTOL, True))
-other = [one.replace(friction=steady.saleg.laws.ConstantFriction()) for one in some]
-spend("other laws:", lambda: steady.batch(other, steady.RTOL, False))
-spend("their lanes:", lambda: steady.batch(other, steady.RTOL, True))
-"""
-    with tempfile.TemporaryDirectory() as folder:
-        environment = {**os.environ, "SALEG_CACHE_DIR": folder}
-        subprocess.run([sys.executable, "-c", code], check=True, env=environment)
-
-
 def agreement(count):
     """Greatest difference of the figures of states solved for and waited for 8 s, at rtol 1e-9."""
     names = ("stroke", "frequency", "compression_ratio", "power", "peak_pressure")
@@ -243,7 +221,6 @@ def main():
     parser.add_argument("--memory", type=int, default=100_000, help="designs of the memory test")
     parser.add_argument("--line", type=int, default=1000, help="points of a sweep along a line")
     parser.add_argument("--grid", type=int, default=100, help="points of a grid in each direction")
-    parser.add_argument("--compile", type=int, default=1, help="whether to compile afresh, timed")
     options = parser.parse_args()
     machine = f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
     print(f"{machine}; Python {platform.python_version()}; saleg {saleg.__version__}\n")
@@ -257,8 +234,6 @@ def main():
     if options.grid:
         on_a_grid(options.grid)
     at_once(engines, options.repeats)
-    if options.compile:
-        compilation()
     if options.agree:
         agreement(options.agree)
     if options.memory:
