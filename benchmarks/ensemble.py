@@ -280,7 +280,7 @@ def main():
     best = dict.fromkeys(ways, math.inf)
     inside = dict.fromkeys(batches, math.inf)
     for _ in range(options.repeats):
-        for w, batch in batches.items():
+        for batch in batches.values():
             batch.inside = 0.0
         for name, way in ways.items():
             best[name] = min(best[name], timed(way))
