@@ -7,10 +7,12 @@ from saleg.kernel.breathing import (
     by_flow,
     crankcase_of,
     energy_of,
+    enthalpy_of_fuel,
     follows,
     gamma_of,
     has_crankcase,
     has_own_pressure,
+    injects,
     mass_gas_of,
     mass_of,
     take_contents,
@@ -42,6 +44,7 @@ from saleg.kernel.layout import (
     EVENT_END_OF_COMBUSTION,
     EVENT_HEAD_CONTACT,
     EVENT_IGNITION,
+    EVENT_INJECTION,
     EVENT_MISFIRE,
     EVENT_MOTOR_OFF,
     EVENT_MOTOR_ON,
@@ -83,8 +86,8 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.needs import CONTENTS_ARE_WANTED, FRAME_IS_WANTED
-from saleg.kernel.rhs import charge_of, gas_of, refresh
+from saleg.kernel.needs import CONTENTS_ARE_WANTED, FRAME_IS_WANTED, INJECTION_IS_WANTED
+from saleg.kernel.rhs import AT_BREAKPOINT, charge_of, gas_of, refresh
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
     completeness_share,
@@ -194,15 +197,21 @@ def burn_at_once(P, E, C, side, y, T):
     wanted, cold = energy_of(P, C, side, y, T) + heat, mass_gas_of(C, side, y) * T
     burn_contents(P, E, C, side)
     put_contents(C, side, y)
+    y[THETA + side] += log(mass_gas_with(P, C, side, y, wanted, T) / cold)
+    y[N_STATE + HEAT_RELEASED + side] += heat
+
+
+@inline
+def mass_gas_with(P, C, side, y, energy, T):
+    """Mass times gas constant and temperature [J] with an internal energy; near T [K] at first."""
     hot, mass_gas = T, mass_gas_of(C, side, y)
     for _ in range(50):
-        excess = energy_of(P, C, side, y, hot) - wanted
+        excess = energy_of(P, C, side, y, hot) - energy
         change = excess * (gamma_of(P, C, side, y, hot) - 1.0) / mass_gas
         hot -= change
         if abs(change) <= 1e-15 * hot:
             break
-    y[THETA + side] += log(hot * mass_gas / cold)
-    y[N_STATE + HEAT_RELEASED + side] += heat
+    return hot * mass_gas
 
 
 @inline
@@ -241,12 +250,14 @@ def open_ports(P, E, C, side, y):
         c.fuel_factor = scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
         c.mode = OPEN
         c.armed = DISARMED
+        c.injection_due = 0.0
         y[IGNITION + side] = 0.0
         y[FRESH + side] = 0.0
         return
     before = internal_energy(P, C, side, y)
     c.mode = OPEN
     c.armed = DISARMED
+    c.injection_due = 0.0
     c.T_closing = c.intake_temperature
     y[IGNITION + side] = 0.0
     c.exhaust_energy += before - internal_energy(P, C, side, y)
@@ -302,6 +313,8 @@ def compose_charge(P, E, C, side, y, p, T):
     mass = p * volume / (c.gas_constant * T)
     wanted = c.equivalence_ratio_wanted
     wanted *= scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
+    if INJECTION_IS_WANTED and injects(C, side):
+        wanted = 0.0
     fuel, air, burnt, fresh = metered(P, C, side, mass, wanted)
     if follows(C, side):  # what a volume holds depends on what it is
         for _ in range(MASS_ITERATIONS):
@@ -310,7 +323,7 @@ def compose_charge(P, E, C, side, y, p, T):
     c.fresh_fuel_energy += fresh * c.lower_heating_value
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
     c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
-    arm_charge(P, E, C, side, y, p, T, volume)
+    close_charge(P, E, C, side, y, p, T, volume)
     put_contents(C, side, y)
     y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
@@ -329,20 +342,60 @@ def trap_charge(P, E, C, side, y):
     c = C[side]
     p, T = pressure_and_temperature(C, side, y)
     c.fresh = y[FRESH + side]
-    arm_charge(P, E, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
+    close_charge(P, E, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
     y[MOTORED + side] = y[THETA + side]
 
 
 @inline
-def arm_charge(P, E, C, side, y, p, T, volume):
+def close_charge(P, E, C, side, y, p, T, volume):
     """Take a charge for the one now trapped at a pressure, a temperature and a volume."""
+    c = C[side]
+    c.mode = CLOSED
+    c.spark_advance = c.next_spark_advance
+    c.charge_number += 1.0
+    if INJECTION_IS_WANTED and injects(C, side):
+        note_charge(E, C, side, p, T, volume)
+        c.trapped_mass, c.trapped_temperature = p * volume / (c.gas_constant * T), T
+        c.injection_due, c.armed, y[IGNITION + side] = 1.0, DISARMED, 0.0
+    else:
+        arm_charge(P, E, C, side, y, p, T, volume)
+
+
+@compiled
+def inject(P, E, C, side, y):
+    """Inject the fuel that the air in a chamber is to have: it evaporates and mixes at once."""
+    c = C[side]
+    _, T = pressure_and_temperature(C, side, y)
+    wanted, cold = energy_of(P, C, side, y, T), mass_gas_of(C, side, y) * T
+    ratio = c.equivalence_ratio_wanted * scatter_fuel_factor(P, c.charge_number, 1.0 * side)
+    fuel = max(ratio * c.air / c.air_fuel_ratio - c.fuel, 0.0)
+    brought = enthalpy_of_fuel(P, C, side, fuel)
+    c.injection_due = 0.0
+    c.fuel += fuel
+    c.mass += fuel
+    put_contents(C, side, y)
+    y[THETA + side] += log(mass_gas_with(P, C, side, y, wanted + brought, T) / cold)
+    y[MOTORED + side] = y[THETA + side]
+    c.fresh_fuel_energy += fuel * c.lower_heating_value
+    c.exhaust_energy -= brought
+    p, T = pressure_and_temperature(C, side, y)
+    arm_charge(P, E, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
+
+
+@inline
+def note_charge(E, C, side, p, T, volume):
+    """Note the state a charge has as its ports close, or as its fuel is injected."""
     c = C[side]
     c.equivalence_ratio = c.fuel * c.air_fuel_ratio / max(c.air, 1e-300)
     c.p_closing, c.T_closing, c.V_closing = p, T, volume
     c.time_to_dead_centre = E.t_dead_centre + last_duration(E) - E.t
-    c.mode = CLOSED
-    c.spark_advance = c.next_spark_advance
-    c.charge_number += 1.0
+
+
+@inline
+def arm_charge(P, E, C, side, y, p, T, volume):
+    """Let a charge light from now on."""
+    note_charge(E, C, side, p, T, volume)
+    c = C[side]
     c.armed = ARMED if c.fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING
@@ -416,9 +469,12 @@ def write_passed(C, side, y, row):
     row.exhaust_energy[side] += y[ENTHALPY_OUT + side]
     row.fresh_mass[side] = c.fresh
     row.closing_mass[side] = c.p_closing * c.V_closing / (c.gas_constant * c.T_closing)
-    if follows(C, side):  # its mass does not change
-        row.closing_mass[side] = c.mass
     row.closing_temperature[side] = c.T_closing
+    if INJECTION_IS_WANTED and injects(C, side):
+        row.closing_mass[side] = c.trapped_mass
+        row.closing_temperature[side] = c.trapped_temperature
+    if follows(C, side):  # nothing leaks out of it
+        row.closing_mass[side] = c.mass
     row.supplied_mass[side] = y[SUPPLIED + side]
     row.expelled_mass[side] = y[EXPELLED + side]
     row.expelled_fresh[side] = y[EXPELLED_FRESH + side]
@@ -489,7 +545,19 @@ def is_due(E, C, side, t, y):
     breaks = (c.mode == BURNING) & (t >= c.t_breakpoint)
     changes = (c.renewal_due > 0.0) | misfires(E, C, side) | ports_due(E, C, side, y)
     lights = (c.mode == CLOSED) & (c.armed > DISARMED) & (y[IGNITION + side] >= 1.0)
+    if INJECTION_IS_WANTED:
+        changes = changes | injection_is_due(E, C, side, y)
     return breaks | changes | lights
+
+
+@inline
+def injection_is_due(E, C, side, y):
+    """Whether a piston on its way in stands where fuel is to be injected."""
+    c = C[side]
+    inward = c.sign * E.direction < 0.0
+    beyond = clearance_of(C, side, y[X]) - c.injection_place
+    reached = beyond <= AT_BREAKPOINT * E.length_scale
+    return (c.injection_due > 0.0) & (c.mode == CLOSED) & inward & reached
 
 
 @compiled
@@ -505,6 +573,8 @@ def change_due(P, E, C, side, y):
         if lit and ignition_lights_at_dead_centre(P, side, charge_of(E, C, side, y)) > 0.0:
             return EVENT_IGNITION
         return EVENT_MISFIRE
+    if INJECTION_IS_WANTED and injection_is_due(E, C, side, y):
+        return EVENT_INJECTION
     if c.mode == CLOSED and c.armed > DISARMED and y[IGNITION + side] >= 1.0:
         return EVENT_IGNITION
     if ports_due(E, C, side, y):
@@ -524,6 +594,8 @@ def change_mode(P, E, C, O, side, y, kind):
             y[IGNITION + side] = 0.0
     elif kind == EVENT_IGNITION:
         ignite(P, E, C, side, y, O.motored)
+    elif INJECTION_IS_WANTED and kind == EVENT_INJECTION:
+        inject(P, E, C, side, y)
     elif kind == EVENT_CHARGE_RENEWAL and C[side].curve_exponent > 0.0:
         renew_charge(P, E, C, side, y)
     elif kind == EVENT_CHARGE_RENEWAL:

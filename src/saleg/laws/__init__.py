@@ -32,6 +32,7 @@ from saleg.laws.base import (
     HeatRelease,
     HeatTransfer,
     Ignition,
+    Injection,
     Law,
     Leak,
     Misfires,
@@ -95,6 +96,7 @@ from saleg.laws.ignition import (
     SparkBeforeDeadCentre,
     TabulatedDelay,
 )
+from saleg.laws.injection import DirectInjection, PortMixing
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
 from saleg.laws.scatter import CyclicVariability, NoScatter
@@ -141,6 +143,7 @@ __all__ = [
     "Crankcase",
     "CyclicVariability",
     "DeadCentreRegulator",
+    "DirectInjection",
     "DoubleWiebe",
     "Drive",
     "EndStops",
@@ -167,6 +170,7 @@ __all__ = [
     "Ignition",
     "IgnitionAtDeadCentre",
     "IgnitionAtPressure",
+    "Injection",
     "Instant",
     "InstantExchange",
     "InstantRelease",
@@ -198,6 +202,7 @@ __all__ = [
     "Plenum",
     "PolytropicLoss",
     "PortFlow",
+    "PortMixing",
     "PositionSensor",
     "PositionSensorLaw",
     "PowerDemand",
