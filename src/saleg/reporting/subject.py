@@ -9,7 +9,8 @@ from saleg.engine import Engine
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run, is_orbit
 from saleg.status import Status
-from saleg.steady.solver import Effort, SteadyState, found_steady_state
+from saleg.steady.solver import Effort, found_steady_state
+from saleg.steady.state import SteadyState
 
 #: Tolerance of the steady state of a run's engine.
 TOLERANCE = 1e-6
