@@ -32,6 +32,7 @@ from saleg.laws.base import (
     HeatRelease,
     HeatTransfer,
     Ignition,
+    Injection,
     Law,
     Leak,
     Misfires,
@@ -96,6 +97,7 @@ from saleg.laws.ignition import (
     SparkBeforeDeadCentre,
     TabulatedDelay,
 )
+from saleg.laws.injection import DirectInjection, PortMixing
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
 from saleg.laws.scatter import CyclicVariability, NoScatter
@@ -142,6 +144,7 @@ __all__ = [
     "Crankcase",
     "CyclicVariability",
     "DeadCentreRegulator",
+    "DirectInjection",
     "DoubleWiebe",
     "Drive",
     "EndStops",
@@ -168,6 +171,7 @@ __all__ = [
     "Ignition",
     "IgnitionAtDeadCentre",
     "IgnitionAtPressure",
+    "Injection",
     "Instant",
     "InstantExchange",
     "InstantRelease",
@@ -199,6 +203,7 @@ __all__ = [
     "Plenum",
     "PolytropicLoss",
     "PortFlow",
+    "PortMixing",
     "PositionSensor",
     "PositionSensorLaw",
     "PowerDemand",
