@@ -120,7 +120,8 @@ def _checked(
     ]
     is_engine = isinstance(engine, Engine)
     engines = engine.problems() if is_engine else [Problem("engine", engine, "", a(Engine).wanted)]
-    chosen, unknown = [], []
+    chosen: list[str] = []
+    unknown: list[Problem] = []
     if not engines:
         chosen = main_parameters(engine) if parameters is None else NAMES.read(parameters) or []
         unknown = [*_no_numbers(engine, chosen)]
