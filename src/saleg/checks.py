@@ -188,29 +188,35 @@ def _series(value: Any, read: Callable[[Any], Any]) -> list[Any] | None:
     return None if any(item is None for item in found) else found
 
 
-def each(check: Check, wanted: str, at_least: int = 0) -> Check:
-    """Check for a list, or the like, of what passes a check."""
+def each(check: Check, wanted: str, *, empty: bool = True) -> Check:
+    """Check for a list, or the like, of what passes a check; whether it may be empty."""
 
     def read(value: Any) -> list[Any] | None:
         found = _series(value, check.read)
-        return None if found is None or len(found) < at_least else found
+        return None if found is None or not (found or empty) else found
 
     def told(value: Any) -> str:
         items = _series(value, lambda item: (item,)) or []
         wrong = (n for n, (item,) in enumerate(items) if check.read(item) is None)
-        return next((f"; item {n} is {shown(items[n][0])}" for n in wrong), "")
+        return next((f"; item {n} is {_plainly(items[n][0])}" for n in wrong), "")
 
-    least = f"at least {at_least} " if at_least else ""
-    return Check(read, f"must be a list of {least}{wanted}, or the like", told=told)
+    kind = "a list" if empty else "a list, not empty,"
+    return Check(read, f"must be {kind} of {wanted}, or the like", told=told)
+
+
+def _plainly(value: Any) -> str:
+    """A value as text, numbers of any type as floats."""
+    found = as_float(value)
+    return shown(value if found is None else found)
 
 
 NUMBER = number()
 POSITIVE = number(0.0, open_low=True)
 SERIES = each(NUMBER, "finite numbers")
-SOME = each(NUMBER, "finite numbers", at_least=1)
+SOME = each(NUMBER, "finite numbers", empty=False)
 ONE_OR_MORE = Check(
     lambda value: SOME.read(value) if NUMBER.read(value) is None else NUMBER.read(value),
-    "must be a finite number, or a list of such numbers",
+    "must be a finite number, or a list, not empty, of such numbers",
     told=SOME.told,
 )
 FLAG = Check(
