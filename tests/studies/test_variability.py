@@ -141,9 +141,9 @@ def test_breathing_engines_scatter_too(base):
         gas_exchange=ports, scatter=SPREAD, **{"intake.pressure": 1.4e5, "equivalence_ratio": 0.4}
     )
     run = saleg.simulate(breathing, 0.2, rtol=1e-10)
-    again = reference.simulate(breathing, 0.2, jitted=True)
-    np.testing.assert_allclose(
-        run.strokes["x_end"][: len(again.strokes)], again.strokes["x_end"], atol=1e-7
-    )
+    again = reference.simulate(breathing, 0.06)
+    count = len(again.strokes)
+    assert count > 3
+    np.testing.assert_allclose(run.strokes["x_end"][:count], again.strokes["x_end"], atol=1e-7)
     plain = saleg.simulate(breathing.replace(scatter=laws.NoScatter()), 0.2, rtol=1e-10)
     assert abs(run.strokes["x_end"][-1] - plain.strokes["x_end"][-1]) > 1e-5
