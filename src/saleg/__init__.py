@@ -36,7 +36,8 @@ from saleg.simulation.scavenging import Scavenging
 from saleg.simulation.shaking import Shaking
 from saleg.simulation.validity import NearestMachine, ValidityReport
 from saleg.status import Status
-from saleg.steady.solver import Effort, SteadyState, steady_state
+from saleg.steady.solver import Effort, steady_state
+from saleg.steady.state import SteadyState
 from saleg.version import __version__, show_versions
 
 if TYPE_CHECKING:  # imported on first use

@@ -265,3 +265,11 @@ def test_engines_searched_for_together_have_the_steady_states_they_have_alone(br
 def test_walls_that_follow_are_searched_for_one_by_one(crankcase):
     (rows,) = rows_by_make([crankcase, crankcase.replace(moving_mass=2.5)])
     assert steady_rows(rows, 1e-6, Effort.THOROUGH, 2) == []
+
+
+def test_fresh_gas_blown_back_comes_again_and_is_not_lost(breathing):
+    shut = breathing.replace(gas_exchange=dataclasses.replace(PORTS, exhaust_width=1e-15))
+    with pytest.warns(saleg.SalegWarning, match="exhaust_width"):
+        strokes = saleg.simulate(shut, 0.1).strokes
+    assert strokes["expelled_mass"].max() > 1e-6  # what was there before is lost
+    assert strokes["expelled_fresh"].max() < 1e-12  # through the exhaust alone

@@ -11,7 +11,7 @@ from saleg import Effort, Status, laws
 from saleg.engine.start import CompressedCharge
 from saleg.laws import Motion
 from saleg.steady import NoSteadyState
-from saleg.steady.return_map import repeats_itself
+from saleg.steady.symmetry import repeats_itself
 
 FIGURES = ("stroke", "frequency", "power", "efficiency", "peak_pressure", "compression_ratio")
 

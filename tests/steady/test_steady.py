@@ -13,7 +13,7 @@ from saleg import Status, laws
 from saleg.laws import Motion
 from saleg.quantities import quantity
 from saleg.simulation.performance import EnergyBalance
-from saleg.steady.return_map import is_symmetric, repeats_itself
+from saleg.steady.symmetry import is_symmetric, repeats_itself
 
 FIGURES = ("stroke", "frequency", "power", "efficiency", "peak_pressure", "compression_ratio")
 

@@ -32,15 +32,10 @@ from saleg.simulation.plausibility import is_remarkable, remarks_on
 from saleg.simulation.settings import Settings, SettingsError, check_flag
 from saleg.status import Status
 from saleg.steady.many import Orbits, steady_rows, verdicts
-from saleg.steady.solver import (
-    Effort,
-    SteadyState,
-    check_effort,
-    check_tolerance,
-    found_steady_state,
-)
+from saleg.steady.solver import Effort, check_effort, check_tolerance, found_steady_state
 from saleg.steady.stabilities import stabilities
 from saleg.steady.stability import Stability
+from saleg.steady.state import SteadyState
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor

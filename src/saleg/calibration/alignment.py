@@ -10,7 +10,7 @@ import numpy as np
 from saleg.calibration.traces import CHANNELS, FEWEST, WORDS, Trace, TraceError
 from saleg.checks import a, checked, whole
 from saleg.simulation.run import Run
-from saleg.steady.solver import SteadyState
+from saleg.steady.state import SteadyState
 
 #: Shifts tried before the best is refined.
 SHIFTS = 240

@@ -16,7 +16,8 @@ from saleg.engine.paths import unit_of
 from saleg.errors import SalegError, nearest
 from saleg.quantities import as_float
 from saleg.simulation.performance import UNITS
-from saleg.steady.solver import SteadyState, check_tolerance, found_steady_state
+from saleg.steady.solver import check_tolerance, found_steady_state
+from saleg.steady.state import SteadyState
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saleg.engine import Engine
-from saleg.steady.solver import SteadyState
+from saleg.steady.state import SteadyState
 
 if TYPE_CHECKING:
     import pandas as pd

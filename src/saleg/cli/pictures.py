@@ -15,7 +15,7 @@ from saleg.files.atomic import new_file
 
 if TYPE_CHECKING:
     from saleg.simulation.run import Run
-    from saleg.steady.solver import SteadyState
+    from saleg.steady.state import SteadyState
 
 
 def add_plot(parser: argparse.ArgumentParser, where: str) -> None:

@@ -15,7 +15,7 @@ from saleg.simulation.run import Run
 from saleg.steady.solver import steady_state
 
 if TYPE_CHECKING:
-    from saleg.steady.solver import SteadyState
+    from saleg.steady.state import SteadyState
 
 #: The file that is written.
 PAGE = "report.html"

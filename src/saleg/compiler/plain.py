@@ -45,7 +45,7 @@ COLUMNS = (
     "kernel/breathing.py",
     "kernel/rhs.py",
     "kernel/events.py",
-    "kernel/switch.py",
+    "kernel/charges.py",
 )
 
 

@@ -44,6 +44,8 @@ INTEGRATOR = (
     "events",
     "peaks",
     "control",
+    "charges",
+    "rows",
     "switch",
     "observe",
     "integrate",
@@ -57,6 +59,8 @@ SEARCH = (
     "kernel/tuples.py",
     "kernel/layout.py",
     "kernel/state.py",
+    "kernel/vector.py",
+    "kernel/extrapolation.py",
     "kernel/orbit.py",
     "kernel/orbits.py",
     "kernel/differences.py",
@@ -64,7 +68,10 @@ SEARCH = (
     "kernel/lanes/search.py",
     "compiler/run_at.py",
 )
-INTEGRATOR_WITH_SEARCH = (*INTEGRATOR, "orbit", "differences", "run_plainly")
+INTEGRATOR_WITH_SEARCH = (
+    *INTEGRATOR,
+    *("vector", "extrapolation", "orbit", "differences", "run_plainly"),
+)
 #: Many engines under commands: of the laws they call the actuators', and the integrator by its
 #: address. Where numba has no addresses it is compiled into them.
 PLANTS = ("needs", "flow", "breathing", "rhs", "control", "plants", "compiler/run_at.py")

@@ -12,7 +12,7 @@ from saleg.control.load_feedback import INPUTS, Feedback, LoadFeedback
 from saleg.control.operating_line import OperatingLine
 from saleg.control.running import generator
 from saleg.laws.arguments import Commands, Signals
-from saleg.steady.solver import SteadyState
+from saleg.steady.state import SteadyState
 
 if TYPE_CHECKING:
     from saleg.control.running import Acts

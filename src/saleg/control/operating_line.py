@@ -11,7 +11,8 @@ from saleg.checks import ONE_OR_MORE, a, checked
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.steady.linear import LinearModel
-from saleg.steady.solver import SteadyState, steady_state
+from saleg.steady.solver import steady_state
+from saleg.steady.state import SteadyState
 
 #: Corrections of load and fuel after which a point is given up, and the deviations from dead centre
 #: and power at which it is found, over their values.

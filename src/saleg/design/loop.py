@@ -24,12 +24,12 @@ from saleg.design.results import DesignedState
 from saleg.engine import Engine, Translator, warn_of_unusual
 from saleg.engine.start import CompressedCharge
 from saleg.kernel import layout
-from saleg.kernel.orbit import read_vector, write_vector
+from saleg.kernel.vector import read_vector, write_vector
 from saleg.quantities import Problem
 from saleg.simulation.course import STEPS_PER_CALL
 from saleg.simulation.initial_state import State, prepare
 from saleg.status import Status
-from saleg.steady.return_map import ReturnMap, is_symmetric, repeats_itself
+from saleg.steady.return_map import ReturnMap
 from saleg.steady.slow_states import find_settled, finer, is_sharp
 from saleg.steady.solver import (
     DEFAULT_TOLERANCE,
@@ -38,7 +38,6 @@ from saleg.steady.solver import (
     QUICK_STEPS,
     RESIDUAL,
     Effort,
-    SteadyState,
     check_effort,
     check_tolerance,
     converged,
@@ -47,6 +46,8 @@ from saleg.steady.solver import (
     starts,
     waited_for,
 )
+from saleg.steady.state import SteadyState
+from saleg.steady.symmetry import is_symmetric, repeats_itself
 
 #: Relative difference allowed between the mass of the orbit and that of the components, over the
 #: tolerance of the integrator.

@@ -15,7 +15,7 @@ from saleg.engine import Engine
 from saleg.fundamental.bridge import groups_of
 from saleg.simulation.performance import Performance
 from saleg.status import Status
-from saleg.steady.solver import SteadyState
+from saleg.steady.state import SteadyState
 
 
 @dataclass(eq=False, kw_only=True, repr=False)

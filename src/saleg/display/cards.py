@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from saleg.engine import Engine
     from saleg.simulation.performance import EnergyBalance, Performance
     from saleg.simulation.run import Run
-    from saleg.steady.solver import SteadyState
     from saleg.steady.stability import Stability
+    from saleg.steady.state import SteadyState
 
 #: Figures that are shown at once; the others open on demand.
 KEY = (

@@ -199,7 +199,8 @@ class Flows(NamedTuple):
     fuel, air, burnt, fresh : float
         Rates of the contents, combustion left out [kg/s].
     supplied, supplied_fuel, expelled, expelled_fuel, expelled_fresh : float
-        In through the intake; out, back into the intake too, less what comes back [kg/s].
+        In through the intake, less the fresh gas blown back there; out otherwise, less what comes
+        back [kg/s].
     enthalpy : float
         Out, less in [W].
     drawn, drawn_burnt, drawn_enthalpy : float
@@ -313,6 +314,7 @@ def chamber_flows(P, C, side, y, gas):
     back, gone = max(exhaust, 0.0), max(-exhaust, 0.0)
     seeped, leaked = max(leak, 0.0), max(-leak, 0.0)
     leaves = drawn_back + gone
+    blown_back, returned = drawn_back * fresh_out, drawn_back * fresh_out * fuel_share
     net = intake + exhaust + leak
     fuel = fed * fuel_share - leaves * fuel_out - leaked * fuel_here
     burnt = fed * burnt_share + back - leaves * burnt_out - leaked * burnt_here
@@ -330,15 +332,15 @@ def chamber_flows(P, C, side, y, gas):
         air=net - fuel - burnt,
         burnt=burnt,
         fresh=fresh,
-        supplied=fed,
-        supplied_fuel=fed * fuel_share,
-        expelled=out - back - seeped,
-        expelled_fuel=leaves * fuel_out + leaked * fuel_here,
-        expelled_fresh=leaves * fresh_out + leaked * fresh_here,
+        supplied=fed - blown_back,
+        supplied_fuel=fed * fuel_share - returned,
+        expelled=out - back - seeped - blown_back,
+        expelled_fuel=leaves * fuel_out + leaked * fuel_here - returned,
+        expelled_fresh=gone * fresh_out + leaked * fresh_here,
         enthalpy=out * h - h_in,
-        drawn=fed * from_supply - drawn_back,
+        drawn=fed * from_supply - drawn_back + returned,
         drawn_burnt=fed * burnt_share - drawn_back * burnt_out,
-        drawn_enthalpy=fed * from_supply * h_supply - drawn_back * h,
+        drawn_enthalpy=fed * from_supply * h_supply - (drawn_back - returned) * h,
     )
 
 

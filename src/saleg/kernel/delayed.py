@@ -21,7 +21,8 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.peaks import watch_point
 from saleg.kernel.rhs import chamber_rates, gas_force, rates_of_motion, refresh, write_chamber
-from saleg.kernel.switch import has_room, switch
+from saleg.kernel.rows import has_room
+from saleg.kernel.switch import switch
 
 
 @compiled

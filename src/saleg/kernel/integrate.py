@@ -47,9 +47,10 @@ from saleg.kernel.needs import N_WANTED
 from saleg.kernel.observe import observe
 from saleg.kernel.peaks import watch_point, watch_step
 from saleg.kernel.rhs import refresh, rhs
+from saleg.kernel.rows import has_room
 from saleg.kernel.state import clearance_of, keep_snapshot
 from saleg.kernel.step import error_norm, take_step
-from saleg.kernel.switch import has_room, is_due, switch
+from saleg.kernel.switch import is_due, switch
 from saleg.laws.choice import where
 
 # Logarithm of the least error the controller remembers of a step.

@@ -78,7 +78,7 @@ CHAMBER_STATES = {
     "crankcase": (CRANKCASE_THETA, FRAME_X),
 }
 
-# Length of the vector a state at a dead centre is written as (see kernel/orbit.py).
+# Length of the vector a state at a dead centre is written as (see kernel/vector.py).
 VECTOR_PER_SIDE = 19
 N_VECTOR = 10 + 2 * VECTOR_PER_SIDE + 1
 

@@ -10,20 +10,10 @@ from typing import Any, NamedTuple
 
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import END_OF_TIME, N_ALL, N_VECTOR
-from saleg.kernel.orbit import (
-    HALF_CYCLE,
-    NEAR,
-    cycle_from,
-    distance,
-    find_orbit,
-    mirror,
-    next_return,
-    read_vector,
-    take_state,
-    write_vector,
-)
+from saleg.kernel.orbit import HALF_CYCLE, NEAR, cycle_from, find_orbit, next_return, take_state
 from saleg.kernel.state import begin_stroke, copy_row
 from saleg.kernel.tuples import Snapshots
+from saleg.kernel.vector import distance, mirror, read_vector, write_vector
 
 # Fixed points an extrapolation goes through: a straight line's at least, a cubic's at most.
 FEWEST_BEFORE = 2

@@ -297,19 +297,19 @@ def exchange_gas(P, C, side, gas, y, dy):
     dy[EXPELLED + side] -= leak
     if c.by_flow > 0.0:
         supply, burnt = gas_before_ports(P, C, side, y)
-        intake, exchanged = 0.0, Shares(0.0, 0.0, 0.0)
+        intake, exchanged, metered = 0.0, Shares(0.0, 0.0, 0.0), 0.0
         if c.mode == OPEN:
-            intake, exchanged = flow_through_ports(
+            intake, exchanged, metered = flow_through_ports(
                 P, C, side, gas, inside, present, supply, burnt, dy
             )
         if has_crankcase(C, side):
             h = supply.h if intake > 0.0 else inside.h
-            change_crankcase(P, C, side, supply, intake, exchanged, h, y, dy)
+            change_crankcase(P, C, side, supply, intake, exchanged, metered, h, y, dy)
 
 
 @inline
 def flow_through_ports(P, C, side, gas, inside, present, supply, burnt, dy):
-    """Let gas through both ports; flow in through the intake, and the shares in it.
+    """Let gas through both ports; flow in through the intake, shares in it, that of metered fuel.
 
     Fuel is added to what comes from the supply until it stands at the ratio wanted to the air.
     """
@@ -327,20 +327,28 @@ def flow_through_ports(P, C, side, gas, inside, present, supply, burnt, dy):
     pass_through(side, out, exhaust, inside, Shares(0.0, 1.0, 0.0), goes, dy)
     intake = net_flow(P, side, intake_area, supply, inside, R)
     pass_through(side, intake, supply, inside, fresh, goes, dy)
-    dy[EXPELLED + side] -= out + min(intake, 0.0)
-    dy[SUPPLIED + side] += max(intake, 0.0)
-    dy[SUPPLIED_FUEL + side] += max(intake, 0.0) * fuel
-    return intake, fresh if intake > 0.0 else goes
+    # Fresh gas that is blown back comes again, with its fuel: it counts as not delivered.
+    blown_back = min(intake, 0.0) * goes.fresh
+    delivered = max(intake, 0.0) + blown_back
+    dy[EXPELLED + side] -= out + min(intake, 0.0) - blown_back
+    dy[EXPELLED_FRESH + side] += blown_back
+    dy[EXPELLED_FUEL + side] += blown_back * fuel
+    dy[SUPPLIED + side] += delivered
+    dy[SUPPLIED_FUEL + side] += delivered * fuel
+    if intake > 0.0:
+        return intake, fresh, fuel
+    return intake, goes, goes.fresh * fuel
 
 
 @inline
-def change_crankcase(P, C, side, case, intake, exchanged, h, y, dy):
+def change_crankcase(P, C, side, case, intake, exchanged, metered, h, y, dy):
     """Energy, mass and burnt gas of a crankcase.
 
-    Fuel is added only beyond it. What the cylinder blows back stays there, its fuel as air.
+    Fuel is added only beyond it, and stays beyond it when fresh gas is blown back. Of all else that
+    the cylinder blows back, fuel counts as air there.
     """
     c = C[side]
-    drawn = intake * (1.0 - exchanged.fuel) if intake > 0.0 else intake
+    drawn = intake * (1.0 - metered)
     manifold = space_at(P, side, c.intake_pressure, c.intake_temperature, c.gas_constant)
     area = supply_inlet_area(P, side, manifold.p - case.p)
     inlet = net_flow(P, side, area, manifold, case, c.gas_constant)

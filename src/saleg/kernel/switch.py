@@ -1,42 +1,27 @@
-"""Changes at an event: modes switch, charges are composed, regulators act."""
+"""What is due at an event: chambers change, the translator turns, regulators act."""
 
-from math import inf, isfinite, log
+from math import isfinite
 
-from saleg.kernel.breathing import (
-    breathes,
-    by_flow,
-    crankcase_of,
-    energy_of,
-    follows,
-    gamma_of,
-    has_crankcase,
-    has_own_pressure,
-    mass_gas_of,
-    mass_of,
-    take_contents,
-    weighted,
+from saleg.kernel.breathing import take_contents
+from saleg.kernel.charges import (
+    close_ports,
+    end_combustion,
+    fill_chamber,
+    ignite,
+    open_ports,
+    renew_charge,
 )
-from saleg.kernel.control import ask, obey, pressure_at_midpoint
-from saleg.kernel.events import pressure_and_temperature
+from saleg.kernel.control import ask, obey
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
-    AIR,
-    ALTERNATOR_IMPULSE,
-    ALTERNATOR_WORK,
     ARMED,
     BURNING,
-    BURNT,
     CLOSED,
     COMPILED,
     CORNER,
-    CRANKCASE_MASS,
-    CRANKCASE_WORK,
-    CURRENT,
     DEAD_CENTRE,
     DISARMED,
     ELECTRICAL_ENERGY,
-    ELECTRICAL_SQUARED,
-    ENTHALPY_OUT,
     EVENT_CHARGE_RENEWAL,
     EVENT_DEAD_CENTRE,
     EVENT_END_OF_COMBUSTION,
@@ -47,388 +32,29 @@ from saleg.kernel.layout import (
     EVENT_MOTOR_ON,
     EVENT_PORT_CLOSING,
     EVENT_PORT_OPENING,
-    EXPELLED,
-    EXPELLED_FRESH,
-    EXPELLED_FUEL,
     FAILING,
-    FRAME_V,
-    FRAME_X,
-    FRESH,
-    FRICTION_WORK,
-    FUEL,
-    G0,
-    GAS_WORK,
     HEAD,
-    HEAT_LOST,
-    HEAT_RELEASED,
     IGNITION,
     LATE,
     LEFT,
-    MOTORED,
-    MOUNT_LOSS,
     N_STATE,
     OPEN,
-    PEAK_ACCELERATION,
-    PEAK_PRESSURE,
-    PEAK_PRESSURE_RISE,
-    PEAK_TEMPERATURE,
-    PEAK_VELOCITY,
-    PORT_WORK,
     RIGHT,
     SPEED_SQUARED,
-    SUPPLIED,
-    SUPPLIED_FUEL,
-    THETA,
     UNCONTROLLED,
-    V,
     X,
 )
-from saleg.kernel.needs import CONTENTS_ARE_WANTED, FRAME_IS_WANTED
-from saleg.kernel.rhs import charge_of, gas_of, refresh
+from saleg.kernel.needs import CONTENTS_ARE_WANTED
+from saleg.kernel.rhs import charge_of, refresh
+from saleg.kernel.rows import record_event, supplied_energy, write_stroke
 from saleg.kernel.slots import (
     alternator_at_dead_centre,
-    completeness_share,
-    frame_energy,
     friction_at_dead_centre,
-    gas_exchange_charge,
-    gas_properties_internal_energy,
-    heat_release_burnt_fraction,
-    heat_release_duration,
     ignition_lights_at_dead_centre,
-    misfires_happens,
-    scatter_delay_factor,
-    scatter_duration_factor,
-    scatter_fuel_factor,
-    springs_energy,
 )
 from saleg.kernel.state import begin_stroke, clearance_of
-from saleg.laws.arguments import Motion, Parts, Stroke
+from saleg.laws.arguments import Stroke
 from saleg.laws.choice import where
-
-# Longest first step of a combustion, over its duration.
-FIRST_OF_BURN = 0.1
-# Rounds in which the mass of a charge whose gas depends on its composition is found to rounding.
-MASS_ITERATIONS = 12
-
-
-@inline
-def has_room(O, tables):
-    """Whether one more step can be recorded."""
-    filled = tables.filled[0]
-    return (
-        tables.strokes.shape[0] - filled.strokes >= 1
-        and (O.events == 0 or tables.events.shape[0] - filled.events >= 12)
-        and (O.history == 0 or tables.history.shape[0] - filled.history >= 2 + O.dense)
-    )
-
-
-@compiled
-def record_event(E, C, O, y, kind, side, tables):
-    """Append a row to the event table."""
-    if not O.events:
-        return
-    filled = tables.filled[0]
-    row = tables.events[filled.events]
-    filled.events += 1
-    row.t = E.t
-    row.kind = kind
-    row.side = side
-    row.x = y[X]
-    row.v = y[V]
-    p, T = pressure_and_temperature(C, side, y)
-    row.p = p
-    row.T = T
-
-
-@inline
-def burnt_mass(P, C, side, t):
-    """Fuel burnt since the start of combustion [kg]."""
-    c = C[side]
-    u = min(max((t - c.t_ignition) / c.duration, 0.0), 1.0) if c.duration > 0.0 else 1.0
-    return c.fuel_to_burn * heat_release_burnt_fraction(P, side, u)
-
-
-@compiled
-def internal_energy(P, C, side, y):
-    """Internal energy of the charge [J]; while the ports are open that of the fresh one."""
-    c = C[side]
-    T = c.T_closing
-    if has_own_pressure(C, side):
-        _, T = pressure_and_temperature(C, side, y)
-    energy = energy_of(P, C, side, y, T)
-    if has_crankcase(y, side):
-        T = crankcase_of(P, C, side, y).T
-        energy += y[CRANKCASE_MASS + side] * gas_properties_internal_energy(P, side, T)
-    return energy
-
-
-@compiled
-def ignite(P, E, C, side, y, motored):
-    """Start of combustion: the charge burns as far as fuel and air allow (Eq. 53)."""
-    c = C[side]
-    gas = gas_of(E, C, side, y, motored)
-    charge = charge_of(E, C, side, y)
-    c.duration = heat_release_duration(P, side, gas, charge)
-    c.duration *= scatter_duration_factor(P, c.charge_number, 1.0 * side)
-    c.mode = BURNING
-    c.armed = DISARMED
-    c.t_ignition = E.t
-    c.t_end = E.t + c.duration
-    if c.duration > 0.0:
-        E.next_step = min(E.next_step, FIRST_OF_BURN * c.duration)
-    share = c.combustion_efficiency * completeness_share(P, side, gas, charge)
-    c.fuel_to_burn = share * min(c.fuel, c.air / c.air_fuel_ratio)
-    c.mass_lit = mass_of(C, side, y)
-    c.ignition_time = E.t
-    c.ignition_height = gas.clearance
-    if c.duration <= 0.0:
-        burn_at_once(P, E, C, side, y, gas.T)
-        c.mode = CLOSED
-
-
-@compiled
-def burn_at_once(P, E, C, side, y, T):
-    """Release all heat at constant volume: internal energy and temperature (by Newton) jump."""
-    c = C[side]
-    heat = c.fuel_to_burn * c.lower_heating_value * heat_release_burnt_fraction(P, side, 1.0)
-    wanted, cold = energy_of(P, C, side, y, T) + heat, mass_gas_of(C, side, y) * T
-    burn_contents(P, E, C, side)
-    put_contents(C, side, y)
-    hot, mass_gas = T, mass_gas_of(C, side, y)
-    for _ in range(50):
-        excess = energy_of(P, C, side, y, hot) - wanted
-        change = excess * (gamma_of(P, C, side, y, hot) - 1.0) / mass_gas
-        hot -= change
-        if abs(change) <= 1e-15 * hot:
-            break
-    y[THETA + side] += log(hot * mass_gas / cold)
-    y[N_STATE + HEAT_RELEASED + side] += heat
-
-
-@inline
-def burn_contents(P, E, C, side):
-    """Turn the fuel burnt, and its air, into burnt gas."""
-    c = C[side]
-    fuel = burnt_mass(P, C, side, E.t)
-    c.fuel -= fuel
-    c.air -= c.air_fuel_ratio * fuel
-    c.burnt += (1.0 + c.air_fuel_ratio) * fuel
-
-
-@compiled
-def end_combustion(P, E, C, side):
-    """End a combustion; the masses of a chamber that breathes have followed it all along."""
-    if not breathes(C, side):
-        burn_contents(P, E, C, side)
-    C[side].mode = CLOSED
-
-
-@inline
-def put_contents(C, side, y):
-    """Bring the state up to date with what the record says of a chamber."""
-    if breathes(C, side):
-        c = C[side]
-        y[FUEL + side], y[AIR + side], y[BURNT + side] = c.fuel, c.air, c.burnt
-
-
-@compiled
-def open_ports(P, E, C, side, y):
-    """Blow down: pressure and temperature become those of the intake."""
-    if C[side].mode == BURNING:
-        end_combustion(P, E, C, side)
-    c = C[side]
-    if by_flow(C, side):
-        c.fuel_factor = scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
-        c.mode = OPEN
-        c.armed = DISARMED
-        y[IGNITION + side] = 0.0
-        y[FRESH + side] = 0.0
-        return
-    before = internal_energy(P, C, side, y)
-    c.mode = OPEN
-    c.armed = DISARMED
-    c.T_closing = c.intake_temperature
-    y[IGNITION + side] = 0.0
-    c.exhaust_energy += before - internal_energy(P, C, side, y)
-
-
-@compiled
-def close_ports(P, E, C, side, y):
-    """Compose the fresh charge and begin to compress it."""
-    if by_flow(C, side):
-        trap_charge(P, E, C, side, y)
-        return
-    before = internal_energy(P, C, side, y)
-    c = C[side]
-    compose_charge(P, E, C, side, y, c.intake_pressure, c.intake_temperature)
-    c.exhaust_energy += before - internal_energy(P, C, side, y)
-
-
-@compiled
-def fill_chamber(P, C, side, y):
-    """Bring a bounce chamber to the pressure commanded, by gas of its own temperature."""
-    c = C[side]
-    before = internal_energy(P, C, side, y)
-    ratio = c.wanted_pressure / pressure_at_midpoint(c)
-    y[THETA + side] += log(ratio)
-    y[MOTORED + side] += log(ratio)
-    c.mass, c.fuel, c.air, c.burnt = ratio * c.mass, ratio * c.fuel, ratio * c.air, ratio * c.burnt
-    put_contents(C, side, y)
-    c.renewal_due = 0.0
-    c.exhaust_energy += before - internal_energy(P, C, side, y)
-
-
-@compiled
-def renew_charge(P, E, C, side, y):
-    """Reject heat at bottom dead centre, down to the curve through the midpoint state (2.3)."""
-    if C[side].mode == BURNING:
-        end_combustion(P, E, C, side)
-    before = internal_energy(P, C, side, y)
-    c = C[side]
-    volume_ratio = c.half_stroke / clearance_of(C, side, y[X])
-    p = c.intake_pressure * volume_ratio**c.curve_exponent
-    T = c.intake_temperature * volume_ratio ** (c.curve_exponent - 1.0)
-    compose_charge(P, E, C, side, y, p, T)
-    c.renewal_due = 0.0
-    c.exhaust_energy += before - internal_energy(P, C, side, y)
-
-
-@compiled
-def compose_charge(P, E, C, side, y, p, T):
-    """Compose a fresh charge at a pressure and a temperature from the contents of the chamber."""
-    c = C[side]
-    clearance = clearance_of(C, side, y[X])
-    volume = c.area * clearance
-    mass = p * volume / (c.gas_constant * T)
-    wanted = c.equivalence_ratio_wanted
-    wanted *= scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
-    fuel, air, burnt, fresh = metered(P, C, side, mass, wanted)
-    if follows(C, side):  # what a volume holds depends on what it is
-        for _ in range(MASS_ITERATIONS):
-            mass *= p * volume / (T * weighted(C, side, Parts(fuel, air, burnt)))
-            fuel, air, burnt, fresh = metered(P, C, side, mass, wanted)
-    c.fresh_fuel_energy += fresh * c.lower_heating_value
-    c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
-    c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
-    arm_charge(P, E, C, side, y, p, T, volume)
-    put_contents(C, side, y)
-    y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
-    y[MOTORED + side] = y[THETA + side]
-
-
-@inline
-def metered(P, C, side, mass, wanted):
-    """Charge of a mass from what a chamber holds: fuel, air, burnt gas, fresh fuel [kg]."""
-    c = C[side]
-    return gas_exchange_charge(P, side, mass, c.fuel, c.air, c.burnt, wanted, c.air_fuel_ratio)
-
-
-@inline
-def trap_charge(P, E, C, side, y):
-    """Close the ports on what has flowed in and what is left."""
-    c = C[side]
-    p, T = pressure_and_temperature(C, side, y)
-    c.fresh = y[FRESH + side]
-    arm_charge(P, E, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
-    y[MOTORED + side] = y[THETA + side]
-
-
-@inline
-def arm_charge(P, E, C, side, y, p, T, volume):
-    """Take a charge for the one now trapped at a pressure, a temperature and a volume."""
-    c = C[side]
-    c.equivalence_ratio = c.fuel * c.air_fuel_ratio / max(c.air, 1e-300)
-    c.p_closing, c.T_closing, c.V_closing = p, T, volume
-    c.time_to_dead_centre = E.t_dead_centre + last_duration(E) - E.t
-    c.mode = CLOSED
-    c.spark_advance = c.next_spark_advance
-    c.charge_number += 1.0
-    c.armed = ARMED if c.fuel > 0.0 else DISARMED
-    if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
-        c.armed = FAILING
-    y[IGNITION + side] = 1.0 - scatter_delay_factor(P, c.charge_number, 1.0 * side)
-
-
-@inline
-def last_duration(E):
-    """Duration of the stroke before the present one [s]; infinite if there was none."""
-    return E.stroke / E.mean_piston_speed if E.mean_piston_speed > 0.0 else inf
-
-
-@compiled
-def write_stroke(P, E, C, y, peaks, row):
-    """Fill the row of the stroke that ends here."""
-    row.t = E.t
-    row.duration = E.t - E.t_dead_centre
-    row.x_start, row.x_end = E.x_dead_centre, y[X]
-    row.direction = E.direction
-    row.load_weight, row.friction_held = E.load_weight, E.friction_held
-    row.motoring, row.motor_amplitude = E.motoring, E.motor_amplitude
-    row.motor_frequency = E.motor_frequency + E.motor_sweep * (E.t - E.t_command)
-    row.equivalence_ratio, row.intake_temperature = E.equivalence_ratio, E.intake_temperature
-    row.alternator_work = y[N_STATE + ALTERNATOR_WORK]
-    row.electrical_energy = y[N_STATE + ELECTRICAL_ENERGY]
-    row.electrical_squared = y[N_STATE + ELECTRICAL_SQUARED]
-    row.alternator_impulse = y[N_STATE + ALTERNATOR_IMPULSE]
-    row.friction_work = y[N_STATE + FRICTION_WORK]
-    row.speed_squared = y[N_STATE + SPEED_SQUARED]
-    row.peak_acceleration = peaks[PEAK_ACCELERATION]
-    row.peak_velocity = peaks[PEAK_VELOCITY]
-    row.spring_energy = springs_energy(P, Motion(E.t, y[X], y[V], E.direction, y[CURRENT]))
-    row.spring_energy -= E.back_force * y[X]
-    if FRAME_IS_WANTED:
-        v = y[FRAME_V]
-        row.frame_energy = frame_energy(P, y[FRAME_X], v) + 0.5 * E.mass * v * v
-        row.mount_loss = y[MOUNT_LOSS]
-    for side in range(2):
-        c = C[side]
-        row.heat_released[side] = y[N_STATE + HEAT_RELEASED + side]
-        row.heat_lost[side] = y[N_STATE + HEAT_LOST + side]
-        row.gas_work[side] = y[N_STATE + GAS_WORK + side]
-        row.port_work[side] = y[N_STATE + PORT_WORK + side]
-        row.peak_pressure[side] = peaks[PEAK_PRESSURE + side]
-        row.peak_temperature[side] = peaks[PEAK_TEMPERATURE + side]
-        row.peak_pressure_rise[side] = peaks[PEAK_PRESSURE_RISE + side]
-        row.fresh_fuel_energy[side] = c.fresh_fuel_energy
-        row.exhaust_energy[side] = c.exhaust_energy
-        row.exhaust_fuel_energy[side] = c.exhaust_fuel_energy
-        row.ignition_time[side] = c.ignition_time
-        row.ignition_height[side] = c.ignition_height
-        row.combustion_duration[side] = c.duration if c.ignition_time >= 0.0 else 0.0
-        row.charge_mass[side] = c.mass
-        row.internal_energy[side] = internal_energy(P, C, side, y)
-        burning = c.mode == BURNING and not breathes(C, side)
-        burnt = burnt_mass(P, C, side, E.t) if burning else 0.0
-        row.fuel_energy[side] = (c.fuel - burnt) * c.lower_heating_value
-        row.wall_temperature[side] = c.wall_temperature
-        if CONTENTS_ARE_WANTED:
-            write_passed(C, side, y, row)
-
-
-@inline
-def write_passed(C, side, y, row):
-    """Write what has passed through a chamber that breathes into the row of a stroke."""
-    c = C[side]
-    if not breathes(C, side):
-        return
-    row.fresh_fuel_energy[side] += y[SUPPLIED_FUEL + side] * c.lower_heating_value
-    row.exhaust_fuel_energy[side] += y[EXPELLED_FUEL + side] * c.lower_heating_value
-    row.exhaust_energy[side] += y[ENTHALPY_OUT + side]
-    row.fresh_mass[side] = c.fresh
-    row.closing_mass[side] = c.p_closing * c.V_closing / (c.gas_constant * c.T_closing)
-    if follows(C, side):  # its mass does not change
-        row.closing_mass[side] = c.mass
-    row.closing_temperature[side] = c.T_closing
-    row.supplied_mass[side] = y[SUPPLIED + side]
-    row.expelled_mass[side] = y[EXPELLED + side]
-    row.expelled_fresh[side] = y[EXPELLED_FRESH + side]
-    row.crankcase_work[side] = y[CRANKCASE_WORK + side]
-
-
-@inline
-def supplied_energy(C, side, y):
-    """Lower heating value of the fuel that has flowed into a chamber in this stroke [J]."""
-    return y[SUPPLIED_FUEL + side] * C[side].lower_heating_value
 
 
 @compiled

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.plotting.figure import ShownAxes
-    from saleg.steady.solver import SteadyState
+    from saleg.steady.state import SteadyState
 
 #: Share of the fuel energy below which a flow is not drawn.
 VISIBLE = 1e-3

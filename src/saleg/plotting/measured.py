@@ -12,7 +12,7 @@ from saleg.plotting.cycle import POSITION, PRESSURE, TIME, last_cycle
 from saleg.plotting.overlay import RUN_COLOURS, darker
 from saleg.plotting.style import COLOURS, TRANSLATOR_COLOUR, axes_or_new, finish, zero_lines
 from saleg.simulation.run import Run
-from saleg.steady.solver import SteadyState
+from saleg.steady.state import SteadyState
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,7 +14,7 @@ from saleg.reporting.look import PAGE
 from saleg.reporting.sections import sections
 from saleg.reporting.subject import Subject
 from saleg.simulation.run import Run
-from saleg.steady.solver import SteadyState
+from saleg.steady.state import SteadyState
 from saleg.version import __version__
 
 

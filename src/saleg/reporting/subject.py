@@ -10,7 +10,8 @@ from saleg.plotting.cycle import is_orbit
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.run import Run
 from saleg.status import Status
-from saleg.steady.solver import Effort, SteadyState, found_steady_state
+from saleg.steady.solver import Effort, found_steady_state
+from saleg.steady.state import SteadyState
 
 #: Tolerance of the steady state of a run's engine.
 TOLERANCE = 1e-6

@@ -16,8 +16,8 @@ from saleg.engine import CombustionChamber, Cylinder, GasChamber, OpenEnd, Seale
 from saleg.engine.start import Contents
 from saleg.errors import LawError, SalegError, StartError
 from saleg.kernel import layout
+from saleg.kernel.charges import ignite
 from saleg.kernel.rhs import gas_of, rates_of_motion, refresh, rhs
-from saleg.kernel.switch import ignite
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator, Supply
 from saleg.simulation.faulty_law import Fault, asked

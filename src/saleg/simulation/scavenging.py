@@ -23,7 +23,8 @@ class Scavenging:
     Attributes
     ----------
     delivery_ratio : float
-        Mass delivered through the intake over the reference mass [-].
+        Mass delivered through the intake, less what is blown back of it, over the reference
+        mass [-].
     charging_efficiency : float
         Delivered mass that is retained over the reference mass [-].
     trapping_efficiency : float

@@ -3,7 +3,8 @@
 from saleg.steady import continuation
 from saleg.steady.linear import LinearModel
 from saleg.steady.linear_inputs import NoLinearModel
-from saleg.steady.solver import Effort, NoSteadyState, SteadyState, steady_state
+from saleg.steady.solver import Effort, steady_state
+from saleg.steady.state import NoSteadyState, SteadyState
 
 __all__ = [
     "Effort",

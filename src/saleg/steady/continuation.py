@@ -19,24 +19,21 @@ from saleg.engine import Engine, check_engine
 from saleg.engine.paths import unit_of
 from saleg.errors import SalegError, shown
 from saleg.kernel import layout
-from saleg.kernel.orbit import Z_CHAMBERS
+from saleg.kernel.vector import Z_CHAMBERS
 from saleg.quantities import as_float, is_number, is_whole
 from saleg.simulation.initial_state import State, prepare
 from saleg.simulation.performance import UNITS as PERFORMANCE_UNITS
 from saleg.steady.earlier_names import renamed_keywords
-from saleg.steady.return_map import (
-    NoReturn,
-    ReturnMap,
-    repeats_itself,
-    step_tolerance,
-)
+from saleg.steady.return_map import NoReturn, ReturnMap, step_tolerance
 from saleg.steady.sealed_gas import (
     missing_entropy,
     missing_entropy_rates,
     with_sealed_charges,
 )
-from saleg.steady.solver import SteadyState, result_of, steady_state
+from saleg.steady.solver import result_of, steady_state
 from saleg.steady.stability import FINE, Stability, judged, own_multipliers
+from saleg.steady.state import SteadyState
+from saleg.steady.symmetry import repeats_itself
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -12,8 +12,8 @@ from saleg.errors import SalegError, shown
 from saleg.kernel import layout
 from saleg.kernel.control import supply
 from saleg.simulation.initial_state import State, prepare
-from saleg.steady.return_map import is_symmetric
 from saleg.steady.stability import DIFFERENCE
+from saleg.steady.symmetry import is_symmetric
 
 #: Commands at a dead centre.
 INPUTS = ("load_weight", "equivalence_ratio", "intake_temperature")

@@ -25,18 +25,10 @@ from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
 from saleg.status import Status
+from saleg.steady.entries import is_adiabatic
 from saleg.steady.lanes import find_each
 from saleg.steady.lines import Lines, lines_among, no_lines
-from saleg.steady.return_map import (
-    ReturnMap,
-    has_laws_that_mirror,
-    is_adiabatic,
-    is_symmetric,
-    longest_return,
-    map_tolerance,
-    repeats_itself,
-    step_tolerance,
-)
+from saleg.steady.return_map import ReturnMap, longest_return, map_tolerance, step_tolerance
 from saleg.steady.sealed_gas import rises_of_theta
 from saleg.steady.slow_states import are_near, are_sharp, free_entries, has_slow_states
 from saleg.steady.solver import (
@@ -53,6 +45,7 @@ from saleg.steady.solver import (
     max_imbalance,
     starts,
 )
+from saleg.steady.symmetry import has_laws_that_mirror, is_symmetric, repeats_itself
 
 
 class Limits(NamedTuple):

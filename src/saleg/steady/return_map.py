@@ -2,94 +2,53 @@
 
 from __future__ import annotations
 
-import dis
-import itertools
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from types import CodeType, FunctionType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from saleg.compiler import search
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.compiler.kernel import Kernel
-from saleg.engine import BounceChamber, Chamber, Engine, OpenEnd
+from saleg.engine import Engine
 from saleg.kernel import layout, tableaus
 from saleg.kernel.differences import Differences
-from saleg.kernel.orbit import (
-    CYCLE,
-    DEPTH,
-    FIND,
-    IMAGE,
-    Z_AMPERES,
+from saleg.kernel.extrapolation import DEPTH
+from saleg.kernel.orbit import CYCLE, FIND, IMAGE, strokes_per_map
+from saleg.kernel.orbits import Searches
+from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
+from saleg.kernel.vector import (
     Z_BURN_PHASE,
     Z_CHAMBERS,
-    Z_CRANKCASE_BURNT,
-    Z_CRANKCASE_MASS,
     Z_FRAME_V,
     Z_FRAME_X,
-    Z_FRESH,
     Z_INTEGRAL,
     Z_LN_CLOSING_PRESSURE,
     Z_LN_CLOSING_TEMPERATURE,
-    Z_LN_CRANKCASE,
     Z_LN_DURATION,
     Z_LN_LIT,
     Z_LN_MASS_MOVING,
     Z_LN_MOTORED,
     Z_LN_PRESSURE,
-    Z_RATIO,
     Z_TO_BURN,
-    Z_WALL,
     mirror,
     read_vector,
-    strokes_per_map,
     write_vector,
 )
-from saleg.kernel.orbits import Searches
-from saleg.kernel.tuples import Iterates, ReturnMapping, Snapshots, Tables
-from saleg.laws import NoHeatTransfer, NoMisfires, NoScatter
-from saleg.laws.arguments import Charge, Gas, Motion, Stroke
-from saleg.laws.base import Alternator, Law
 from saleg.simulation.course import STEPS_PER_CALL, options_record
 from saleg.simulation.initial_rows import States
 from saleg.simulation.initial_state import State
 from saleg.simulation.kernel_arguments import arguments_of
 from saleg.simulation.settings import Detail, Settings
+from saleg.steady.entries import constant_entries
 
 #: Longest time to the next return, over the natural time of half a stroke.
 LONGEST = 200.0
-#: Positions, velocities and currents, over their natural sizes, at which the laws of motion are
-#: compared with their mirror images.
-PROBES = tuple(
-    (position, speed, 0.7 * speed)
-    for position, speed in zip(
-        (0.03, 0.11, 0.23, 0.31, 0.42, 0.53, 0.61, 0.72, 0.80, 0.86, 0.90, 0.94, 0.97, 0.99),
-        (0.97, -0.9, 0.85, -0.8, 0.7, -0.6, 0.5, -0.45, 0.4, -0.3, 0.25, -0.2, 0.1, -0.05),
-        strict=True,
-    )
-)
-#: Hot gas in motion and its charge, to which every wall that takes heat has a coefficient.
-PROBE_GAS = Gas(30e5, 900.0, 1e-4, 20e5, 0.03, 0.06, 8.0, 450.0, 0.0, -5.0)
-PROBE_CHARGE = Charge(1e-4, 0.0, 1e-4, 0.0, 0.0, 1e5, 300.0, 4e-4, 3e-4)
-#: Methods of laws of motion that are shown no motion, but a stroke or a position.
-SHOWN_NO_MOTION = ("at_dead_centre", "next_breakpoint")
-#: How Python takes a field by name, and the fields of a motion that are not the time.
-TAKE = "LOAD_ATTR"
-TIMELESS = frozenset(Motion._fields) - {"t"}
 #: Longest way of a jump at once, over the entry of the vector or one.
 FARTHEST = 0.5
 #: Difference of a central difference, over the numbers of order one in a vector.
 DIFFERENCE = 1e-5
-#: Entries of the vector, per side, for the states that laws ask for; masses have entries anyway.
-ENTRIES_OF_STATES = {
-    "contents": (Z_FRESH, Z_LN_LIT, Z_LN_CLOSING_PRESSURE, Z_LN_CLOSING_TEMPERATURE),
-    "wall_temperature": (Z_WALL,),
-    "crankcase": (Z_LN_CRANKCASE, Z_CRANKCASE_MASS, Z_CRANKCASE_BURNT),
-}
 #: Tolerance of the steps of an engine that breathes, over that of the map, and the least there is.
 FINER_WITH_CORNERS = 1e-3
 FINEST_WITH_CORNERS = 1e-12
@@ -411,163 +370,3 @@ def iterates_from(point: np.ndarray | None = None) -> Iterates:
         modes=np.zeros(2, np.int64),
         counts=np.zeros(2, np.int64),
     )
-
-
-def constant_entries(engine: Engine) -> set[int]:
-    """Entries of the vector that nothing can change: a current that is not, a sealed charge."""
-    kept = set()
-    if type(engine.alternator).current_rate is Alternator.current_rate:
-        kept.add(Z_AMPERES)
-    if "frame" not in engine.frame.states:
-        kept |= {Z_FRAME_X, Z_FRAME_V}
-    for side, chamber in enumerate(engine.chambers):
-        first = Z_CHAMBERS + layout.VECTOR_PER_SIDE * side
-        if isinstance(chamber, OpenEnd):
-            kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
-        elif chamber.is_sealed:
-            kept |= {first + n for n in range(layout.VECTOR_PER_SIDE)}
-            kept -= {first + Z_LN_PRESSURE, first + Z_LN_MOTORED, first + Z_WALL}
-        elif isinstance(chamber, BounceChamber):  # gas flows, but no charge is composed
-            kept |= {first + Z_INTEGRAL, first + Z_RATIO, first + Z_LN_LIT}
-            kept |= {first + Z_LN_CLOSING_PRESSURE, first + Z_LN_CLOSING_TEMPERATURE}
-        if not engine.needs_motored_pressure:
-            kept.add(first + Z_LN_MOTORED)
-    return kept | unused_entries(engine)
-
-
-def unused_entries(engine: Engine) -> set[int]:
-    """Entries of the vector for states of the chambers that none of their laws asks for."""
-    return {
-        Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
-        for side, chamber in enumerate(engine.chambers)
-        for name, entries in ENTRIES_OF_STATES.items()
-        if name not in chamber.states
-        for n in entries
-    }
-
-
-def conserved_entries(engine: Engine) -> set[int]:
-    """Entries of the vector that hold the entropy of sealed chambers without heat transfer."""
-    return sealed_entries(engine, [is_adiabatic(chamber) for chamber in engine.chambers])
-
-
-def sealed_entries(engine: Engine, wanted: Sequence[bool] = (True, True)) -> set[int]:
-    """Entries of the vector for the pressures in those chambers that never open."""
-    entries = [Z_LN_PRESSURE] + [Z_LN_MOTORED] * engine.needs_motored_pressure
-    return {
-        Z_CHAMBERS + layout.VECTOR_PER_SIDE * side + n
-        for side, chamber in enumerate(engine.chambers)
-        if wanted[side] and chamber.is_sealed
-        for n in entries
-    }
-
-
-def is_adiabatic(chamber: Chamber) -> bool:
-    """Whether a chamber is sealed and without heat transfer, so that it keeps its entropy."""
-    if not chamber.is_sealed:
-        return False
-    law = chamber.heat_transfer  # type: ignore[attr-defined]
-    return isinstance(law, NoHeatTransfer) or law.coefficient(PROBE_GAS, PROBE_CHARGE) == 0.0
-
-
-def repeats_itself(engine: Engine) -> bool:
-    """Whether nothing in an engine depends on the time or on the number of the charge."""
-    if not isinstance(engine.scatter, NoScatter):
-        return False
-    for chamber in engine.chambers:
-        if not isinstance(getattr(chamber, "misfires", NoMisfires()), NoMisfires):
-            return False
-    kinds: list[Any] = [type(law) for law in _laws_of_motion(engine)]
-    return not any(_asks_for_time(kind) for kind in kinds)
-
-
-@lru_cache(maxsize=256)
-def _asks_for_time(law: Any) -> bool:
-    """Whether a method of a law may look at the time in the motion it is shown.
-
-    It does not if all it takes from the motion is fields by name, and none of them the time.
-    Whoever unpacks the motion, takes a field by number or hands the motion on may well look.
-    """
-    return any(
-        not isinstance(method, FunctionType) or _looks_at_time(method.__code__)
-        for method in (getattr(law, name) for name in law.compiled if name not in SHOWN_NO_MOTION)
-    )
-
-
-def _looks_at_time(code: CodeType) -> bool:
-    """Whether code does anything with its last argument but take fields other than the time."""
-    motion = code.co_varnames[code.co_argcount - 1]
-    steps = [step for step in dis.get_instructions(code) if step.opname not in ("CACHE", "NOP")]
-    for step, following in itertools.zip_longest(steps, steps[1:]):
-        names = step.argval if isinstance(step.argval, tuple) else (step.argval,)
-        if motion not in names or step.opname == "LOAD_CONST":
-            continue
-        taken = following.argval if following is not None and following.opname == TAKE else None
-        loaded_last = "LOAD_FAST" in step.opname and names[-1] == motion
-        if not loaded_last or motion in names[:-1] or taken not in TIMELESS:
-            return True
-    return False
-
-
-def is_symmetric(engine: Engine) -> bool:
-    """Whether an engine is its own mirror image, laws of motion included."""
-    if not engine.is_mirrored:
-        return False
-    if has_laws_that_mirror(engine):
-        return True
-    for x, v, direction, current in _probes(engine):
-        try:
-            there = _forces(engine, Motion(0.0, x, v, direction, current))
-            mirrored = _forces(engine, Motion(0.0, -x, -v, -direction, -current))
-            signs = (-1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
-            for sign, a, b in zip(signs, there, mirrored, strict=True):
-                if abs(sign * a - b) > 1e-12 * abs(a):
-                    return False
-        except Exception:  # a law that fails is named where the engine starts
-            return False
-    return True
-
-
-def has_laws_that_mirror(engine: Engine) -> bool:
-    """Whether all laws of motion are the same in the mirror whatever their numbers."""
-    # A class says so for itself, not for those derived from it.
-    laws = *_laws_of_motion(engine), engine.frame
-    return all(vars(type(law)).get("mirrors") for law in laws)
-
-
-def _laws_of_motion(engine: Engine) -> tuple[Law, ...]:
-    return engine.springs, engine.friction, engine.alternator
-
-
-def _probes(engine: Engine) -> list[tuple[float, float, float, float]]:
-    """Positions, velocities, directions and currents at which forces are compared."""
-    length = 0.5 * engine.maximum_stroke
-    speed = 100.0 * length
-    return [(a * length, b * speed, math.copysign(1.0, b), c) for a, b, c in PROBES]
-
-
-def _forces(engine: Engine, motion: Motion) -> list[float]:
-    """Forces and the rate of the current, then energies and what is held: odd, then even."""
-    stroke = _stroke_at(engine, motion)
-    return [
-        engine.springs.force(motion),
-        engine.friction.force(1.0, motion),
-        engine.alternator.force(1.0, motion),
-        engine.alternator.current_rate(1.0, motion),
-        engine.frame.acceleration(motion.x, motion.x, motion.v),
-        engine.frame.energy(motion.x, motion.v),
-        engine.frame.loss(motion.v),
-        engine.springs.energy(motion),
-        engine.alternator.electrical_power(1.0, motion),
-        engine.alternator.at_dead_centre(1.0, stroke),
-        engine.friction.at_dead_centre(1.0, stroke),
-    ]
-
-
-def _stroke_at(engine: Engine, motion: Motion) -> Stroke:
-    """A stroke that ends at different distances from the midpoint."""
-    half, speed = 0.5 * engine.maximum_stroke, abs(motion.v)
-    ends = sorted((motion.x, -0.9 * motion.x))
-    length = ends[1] - ends[0]
-    area = 0.5 * sum(chamber.area for chamber in engine.chambers)
-    return Stroke(length, length / speed, 2.0 * half, half, area, 1.0, speed, *ends)

@@ -18,11 +18,12 @@ from saleg.compiler.plain import on_columns
 from saleg.engine.columns import Rows
 from saleg.kernel import layout
 from saleg.kernel.events import pressure_and_temperature
-from saleg.kernel.orbit import Z_CHAMBERS, Z_LN_MOTORED, Z_LN_PRESSURE, read_vector
+from saleg.kernel.vector import Z_CHAMBERS, Z_LN_MOTORED, Z_LN_PRESSURE, read_vector
 from saleg.laws.base import GasProperties
 from saleg.simulation.initial_rows import States
 from saleg.simulation.initial_state import State
-from saleg.steady.return_map import DIFFERENCE, ReturnMap, constant_entries, is_adiabatic
+from saleg.steady.entries import constant_entries, is_adiabatic
+from saleg.steady.return_map import DIFFERENCE, ReturnMap
 
 
 def with_sealed_charges(return_map: ReturnMap, given: State, z: np.ndarray) -> np.ndarray:

@@ -16,14 +16,8 @@ from saleg.kernel import layout
 from saleg.kernel.orbit import NEAR
 from saleg.simulation.initial_state import State
 from saleg.simulation.outcome import imbalance
-from saleg.steady.return_map import (
-    NoReturn,
-    ReturnMap,
-    Search,
-    conserved_entries,
-    is_adiabatic,
-    unused_entries,
-)
+from saleg.steady.entries import conserved_entries, is_adiabatic, unused_entries
+from saleg.steady.return_map import NoReturn, ReturnMap, Search
 from saleg.steady.sealed_gas import rise_of_theta
 from saleg.steady.stability import FINE
 

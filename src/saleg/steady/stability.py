@@ -11,7 +11,8 @@ import numpy as np
 from saleg.engine import Engine
 from saleg.simulation.course import Replay
 from saleg.simulation.run import read_only
-from saleg.steady.return_map import NoReturn, ReturnMap, sealed_entries, step_tolerance
+from saleg.steady.entries import sealed_entries
+from saleg.steady.return_map import NoReturn, ReturnMap, step_tolerance
 
 #: Tolerance of the integrator for differences of the map, which magnify its error.
 FINE = 1e-11

@@ -16,7 +16,7 @@ from saleg.engine.paths import unit_of
 from saleg.quantities import is_number
 from saleg.simulation.performance import UNITS
 from saleg.simulation.run import Run
-from saleg.steady.solver import SteadyState
+from saleg.steady.state import SteadyState
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -348,7 +348,7 @@ def delayed(engine: Engine, duration: float, *, step: float, delay: int = 0) -> 
 #: Modules of the kernel the emulation is composed of.
 DELAYED = (
     *("needs", "flow", "breathing", "rhs", "general", "adaptive", "step", "events", "peaks"),
-    *("control", "switch", "delayed"),
+    *("control", "charges", "rows", "switch", "delayed"),
 )
 
 

@@ -10,7 +10,7 @@ from saleg.errors import InvalidEngine
 from saleg.laws import LumpedWall
 from saleg.quantities import Problem
 from saleg.steady import steady_state
-from saleg.steady.solver import NoSteadyState
+from saleg.steady.state import NoSteadyState
 
 
 @checked(engine=a(Engine), coolant_temperature=POSITIVE)
