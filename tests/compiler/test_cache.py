@@ -144,8 +144,8 @@ engine = saleg.machines.thesis_base().replace(springs=MySprings())
 """
 
 
-def test_an_edited_law_helper_or_constant_recompiles(tmp_path):
-    cache = tmp_path / "cache"
+def test_an_edited_law_helper_or_constant_recompiles(cold, tmp_path):
+    cache, _ = cold
     write_law(tmp_path)
     base = report(tmp_path, BASE, cache, whole=False)
     same = report(tmp_path, CUSTOM, cache, whole=False)
@@ -161,7 +161,7 @@ def test_an_edited_law_helper_or_constant_recompiles(tmp_path):
         assert edited["frequency"] > 1.005 * base["frequency"]
 
 
-def test_engines_with_different_laws_in_one_process_never_mix(tmp_path):
+def test_engines_with_different_laws_in_one_process_never_mix(cold, tmp_path):
     write_law(tmp_path, name="law_a", helper="helper_a", scale=1.0)
     write_law(tmp_path, name="law_b", helper="helper_b", scale=1.3)
     code = """
@@ -179,8 +179,8 @@ def test_engines_with_different_laws_in_one_process_never_mix(tmp_path):
     assert same(first[2], stiff)
     print("fine")
     """
-    assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
-    assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
+    assert script(tmp_path, code, cold[0]).stdout.strip() == "fine"
+    assert script(tmp_path, code, cold[0]).stdout.strip() == "fine"
 
 
 def test_left_and_right_may_have_different_laws(base):
