@@ -1,10 +1,12 @@
 import re
+import runpy
 import shlex
 import subprocess
 import sys
 from contextlib import suppress
 from dataclasses import fields
 
+import matplotlib.pyplot as plt
 import pytest
 
 import saleg
@@ -16,13 +18,6 @@ RUN, TEST = (block.strip() for block in blocks("sh"))
 
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-#: Runs scripts one after the other, each with names of its own.
-BY_THEMSELVES = """
-import runpy, sys
-for name in sys.argv[1:]:
-    print(name, file=sys.stderr, flush=True)  # so that one sees which failed
-    runpy.run_path(f"{name}.py", run_name="__main__")
-"""
 
 
 def python_of(page):
@@ -32,15 +27,19 @@ def python_of(page):
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if python_of(page)], ids=lambda p: p.stem)
-def test_python_blocks_run(page, tmp_path):
-    """Each by itself, those of a page in one process: it takes longer to begin than most blocks."""
+def test_python_blocks_run(page, tmp_path, monkeypatch):
+    """Each as a script by itself, all in one process: it takes longer to begin than most blocks."""
+    monkeypatch.chdir(tmp_path)
     for name, block in python_of(page).items():
         (tmp_path / f"{name}.py").write_text(block, encoding="utf-8")
-    subprocess.run(
-        [sys.executable, "-W", "error", "-c", BY_THEMSELVES, *python_of(page)],
-        check=True,
-        cwd=tmp_path,
-    )
+        runpy.run_path(f"{name}.py", run_name="__main__")
+        plt.close("all")
+
+
+def test_the_first_block_runs_in_a_process_of_its_own(tmp_path):
+    (tmp_path / "block.py").write_text(blocks("python")[0], encoding="utf-8")
+    command = [sys.executable, "-W", "error", "block.py"]
+    subprocess.run(command, check=True, cwd=tmp_path)
 
 
 def test_the_run_command_runs():
