@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import math
 import pickle
 import sys
 import types
@@ -100,8 +101,10 @@ def test_a_law_and_its_number_in_one_call(base, turned):
 
 def test_all_unknown_paths_are_named(base):
     with pytest.raises(UnknownPath) as error:
-        base.replace(**{"boer": 1.0, "intake.presure": 2.0})
+        base.replace(**{"boer": 1.0, "intake.presure": 2.0, "bore": -1, "moving_mass": math.nan})
     assert "'boer'" in str(error.value)
+    assert "bore = -1.0 [m]" in str(error.value)  # before, the paths alone
+    assert "mass = nan" in str(error.value)
     assert "'intake.presure'" in str(error.value)
 
 
