@@ -262,7 +262,8 @@ def test_a_damaged_cache_is_compiled_afresh(tmp_path, monkeypatch):
 
     code = (
         "import saleg; e = saleg.machines.thesis_base();"
-        "print(saleg.simulate(e, 0.05).strokes['x_end'].tolist())"
+        "run = saleg.reference.simulate(e, 0.05, jitted=True);"  # its kernel is compiled soonest
+        "print(run.strokes['x_end'].tolist())"
     )
     env = {**os.environ, "SALEG_CACHE_DIR": str(tmp_path)}
 

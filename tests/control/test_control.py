@@ -510,7 +510,9 @@ def test_an_actuator_moves_on_after_a_single_command(transient):
 
 
 def test_engines_without_fuel_and_with_unlike_sides_are_controlled(transient):
-    chamber = saleg.BounceChamber(bore=0.0345, half_stroke=0.0467)
+    chamber = saleg.BounceChamber(
+        bore=0.0345, half_stroke=0.0467, gas_properties=saleg.laws.ConstantGamma()
+    )
     closed = saleg.Engine.mirrored(
         saleg.Translator(mass=4.93), chamber, springs=transient.springs, start=AtRest()
     )
