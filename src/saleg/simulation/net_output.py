@@ -115,9 +115,8 @@ def _delivered(engine: Engine, cycle: np.ndarray, side: int) -> float:
     chamber = engine.chambers[side]
     if not isinstance(chamber, Cylinder):
         return 0.0
-    flowed = float(cycle["supplied_mass"][:, side].sum())
-    if flowed > 0.0:
-        return flowed
+    if "contents" in chamber.gas_exchange.states:
+        return float(cycle["supplied_mass"][:, side].sum())
     out = (1.0 - 2.0 * side) * cycle["x_end"] + chamber.half_stroke
     if not (out > chamber.port_closing).any():
         return 0.0
