@@ -147,7 +147,7 @@ def test_bore_of_the_piston_is_given_once(one_spring):
 
 def test_two_open_ends_and_double_pressures_are_refused(base):
     wrong = [
-        (Engine(Translator(mass=2.0), None, None), {"pressure"}),
+        (Engine(Translator(mass=2.0), None, None), {"left", "right"}),
         (
             Engine(Translator(mass=2.0), base.left, None).replace(
                 back_pressure=1e5, back_area=1e-3
