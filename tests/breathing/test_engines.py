@@ -51,6 +51,7 @@ def test_energy_closes_at_the_order_of_the_method(breathing, crankcase):
         assert off[1] < 1e-9
 
 
+@pytest.mark.filterwarnings("ignore:unusual for an engine")
 def test_wide_ports_tend_to_the_instantaneous_exchange(base):
     boosted = base.replace(**{"intake.pressure": 1.01e5, "egr": 0.0})
     wanted = saleg.steady_state(boosted).performance
