@@ -118,6 +118,13 @@ def test_mirror_image_is_exact(one_spring):
     )
 
 
+def test_what_nothing_pushes_back_leaves_by_the_open_end(one_spring):
+    run = saleg.simulate(one_spring.replace(springs=laws.OneSidedSprings()), 3.0)
+    assert run.status is saleg.Status.HEAD_CONTACT
+    assert "the open right side" in run.message
+    assert "nothing pushed it back" in run.message
+
+
 def test_everything_goes_with_it(one_spring, steady, tmp_path):
     path = tmp_path / "one.toml"
     path.write_text(one_spring.to_toml())

@@ -60,6 +60,7 @@ def test_ports_that_let_nothing_in_are_charged_for_nothing(base):
     net = run.net_output()
     assert not run.last_cycle_strokes["supplied_mass"].any()
     assert (net.delivered, net.charging) == (0.0, 0.0)
+    assert "no fresh gas comes in" in run.message
 
 
 def test_motored_and_unfinished_runs(base):
