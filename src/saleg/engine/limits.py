@@ -1,28 +1,26 @@
 """Limits between the fields of an engine: lengths, ports, crankcases, backs and gases that fit.
 
 Each family yields, for one side, the limits it knows: path within the chamber, whether it is kept,
-unit, and what is allowed. Of an engine of columns, whether it is kept is an array.
+unit, and what is allowed. Of an engine of columns, whether it is kept is an array. ``engine`` is a
+:class:`saleg.Engine` throughout; it is checked by these limits, so its type is not named.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from saleg.engine.chambers import Cylinder, GasChamber, OpenEnd
 from saleg.laws import Crankcase, PortFlow
 from saleg.quantities import Problem
-
-if TYPE_CHECKING:
-    from saleg.engine.engine import Engine
 
 #: Path within a chamber, whether the limit is kept, unit, and what is allowed.
 Limit = tuple[str, Any, str, str]
 WINDOWS = "exhaust_width", "intake_width"
 
 
-def lengths_fit(engine: Engine) -> Any:
+def lengths_fit(engine: Any) -> Any:
     """Whether all limits are kept; of an engine of columns, in each row."""
     most, fit = _most(engine), True
     for family, _ in FAMILIES:
@@ -32,12 +30,12 @@ def lengths_fit(engine: Engine) -> Any:
     return fit
 
 
-def limits_exceeded(engine: Engine, found: Iterable[Problem]) -> list[Problem]:
+def limits_exceeded(engine: Any, found: Iterable[Problem]) -> list[Problem]:
     """Limits that are not kept, where the fields they are between are right by themselves.
 
     Parameters
     ----------
-    engine : Engine
+    engine : saleg.Engine
         With a chamber on either side.
     found : iterable of Problem
         What is wrong by itself.
@@ -59,7 +57,7 @@ def limits_exceeded(engine: Engine, found: Iterable[Problem]) -> list[Problem]:
     return exceeded
 
 
-def paths_of(engine: Engine, found: Iterable[Problem]) -> list[str]:
+def paths_of(engine: Any, found: Iterable[Problem]) -> list[str]:
     """Paths of what is wrong; of chambers that are alike, without their side too."""
     paths = [problem.path for problem in found]
     if engine.is_mirrored:
@@ -72,7 +70,7 @@ def is_within(path: str, places: Iterable[str]) -> bool:
     return any(path == place or path.startswith(place + ".") for place in places)
 
 
-def windows_too_wide(engine: Engine) -> list[Problem]:
+def windows_too_wide(engine: Any) -> list[Problem]:
     """Windows of ports wider than the circumference of their cylinder, which nobody can cut."""
     sides = ("",) if engine.is_mirrored else ("left.", "right.")
     found = []
@@ -99,7 +97,7 @@ def _windows(chamber: Any) -> Iterator[tuple[str, Any, Any]]:
             yield name, getattr(ports, name), math.pi * chamber.bore
 
 
-def _most(engine: Engine) -> Any:
+def _most(engine: Any) -> Any:
     """Clearances at the midpoint together [m]."""
     return engine.left.half_stroke + engine.right.half_stroke
 
@@ -114,13 +112,13 @@ def _shown(length: Any) -> str:
     return f" ({length:g} m)" if isinstance(length, float) else ""
 
 
-def _limits_of_gaps(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_gaps(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     chamber = engine.chambers[side]
     allowed = f"must be < half_stroke{_shown(chamber.half_stroke)}"
     yield "head_gap", chamber.head_gap < chamber.half_stroke, "m", allowed
 
 
-def _limits_of_edges(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_edges(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     chamber = engine.chambers[side]
     if isinstance(chamber, Cylinder):
         gap, port = chamber.head_gap, chamber.port_closing
@@ -129,7 +127,7 @@ def _limits_of_edges(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
         yield "port_closing", kept, "m", f"must be {lowest} and {highest}"
 
 
-def _limits_of_intake_edges(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_intake_edges(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     chamber = engine.chambers[side]
     ports = getattr(chamber, "gas_exchange", None)
     if isinstance(chamber, Cylinder) and isinstance(ports, PortFlow):
@@ -138,15 +136,15 @@ def _limits_of_intake_edges(engine: Engine, side: int, most: Any) -> Iterator[Li
         yield "gas_exchange.intake_delay", kept, "m", allowed
 
 
-def _limits_of_exhausts(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_exhausts(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     return _limits_of_heights(engine, side, most, "exhaust_height")
 
 
-def _limits_of_intakes(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_intakes(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     return _limits_of_heights(engine, side, most, "intake_height")
 
 
-def _limits_of_heights(engine: Engine, side: int, most: Any, name: str) -> Iterator[Limit]:
+def _limits_of_heights(engine: Any, side: int, most: Any, name: str) -> Iterator[Limit]:
     """A window may end beyond what the piston uncovers, but is no taller than the stroke."""
     chamber = engine.chambers[side]
     ports = getattr(chamber, "gas_exchange", None)
@@ -155,7 +153,7 @@ def _limits_of_heights(engine: Engine, side: int, most: Any, name: str) -> Itera
         yield f"gas_exchange.{name}", getattr(ports, name) <= most, "m", allowed
 
 
-def _limits_of_crankcases(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_crankcases(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     chamber = engine.chambers[side]
     supply = getattr(chamber, "supply", None)
     if isinstance(supply, Crankcase):
@@ -164,7 +162,7 @@ def _limits_of_crankcases(engine: Engine, side: int, most: Any) -> Iterator[Limi
         yield "supply.volume_at_midpoint", kept, "m^3", allowed
 
 
-def _limits_of_feeds(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_feeds(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     chamber = engine.chambers[side]
     if isinstance(getattr(chamber, "supply", None), Crankcase):
         ports: Any = getattr(chamber, "gas_exchange", None)
@@ -172,7 +170,7 @@ def _limits_of_feeds(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
         yield "gas_exchange", "contents" in getattr(ports, "states", ()), "-", allowed
 
 
-def _limits_of_backs(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_backs(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     """Limits of pressures behind the pistons."""
     chamber, opposite = engine.chambers[side], engine.chambers[1 - side]
     if not isinstance(chamber, GasChamber):
@@ -185,7 +183,7 @@ def _limits_of_backs(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
         yield "back_area", kept, "m^2", "must be > 0 with a back_pressure"
 
 
-def _limits_of_composition(engine: Engine, side: int, most: Any) -> Iterator[Limit]:
+def _limits_of_composition(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     """Limits of gases that follow the composition."""
     chamber = engine.chambers[side]
     if getattr(getattr(chamber, "gas_properties", None), "follows_composition", False):
