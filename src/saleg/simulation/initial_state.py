@@ -81,9 +81,8 @@ def prepare(engine: Engine) -> State:
     engine.check_laws()
     check_methods(engine.laws.values())
     try:
-        state = _prepare(engine)
         check_flows(engine)
-        return state
+        return _prepare(engine)
     except SalegError:
         raise
     except Exception as error:
