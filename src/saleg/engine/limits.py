@@ -11,8 +11,8 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from saleg.engine.chambers import Cylinder, GasChamber, OpenEnd
-from saleg.laws import Crankcase, PortFlow
+from saleg.engine.chambers import CombustionChamber, Cylinder, GasChamber, OpenEnd
+from saleg.laws import Crankcase, DirectInjection, PortFlow
 from saleg.quantities import Problem
 
 #: Path within a chamber, whether the limit is kept, unit, and what is allowed.
@@ -183,6 +183,18 @@ def _limits_of_backs(engine: Any, side: int, most: Any) -> Iterator[Limit]:
         yield "back_area", kept, "m^2", "must be > 0 with a back_pressure"
 
 
+def _limits_of_injection(engine: Any, side: int, most: Any) -> Iterator[Limit]:
+    chamber = engine.chambers[side]
+    if isinstance(chamber, CombustionChamber) and chamber.injection.is_direct:
+        first, allowed = most, "must be > head_gap and < the maximum stroke"
+        if isinstance(chamber, Cylinder):
+            first, allowed = chamber.port_closing, "must be > head_gap and < port_closing"
+        place = chamber.injection.place
+        kept = (chamber.head_gap < place) & (place < first)
+        is_ours = isinstance(chamber.injection, DirectInjection)
+        yield "injection.clearance" if is_ours else "injection", kept, "m", allowed
+
+
 def _limits_of_composition(engine: Any, side: int, most: Any) -> Iterator[Limit]:
     """Limits of gases that follow the composition."""
     chamber = engine.chambers[side]
@@ -205,6 +217,7 @@ FAMILIES: tuple[tuple[Any, tuple[str, ...]], ...] = (
     (_limits_of_intakes, (BOTH, "gas_exchange.intake_height")),
     (_limits_of_crankcases, ("supply", BOTH)),
     (_limits_of_backs, ("back_area", "back_pressure")),
+    (_limits_of_injection, (*_EDGES, "injection")),
     (_limits_of_feeds, ()),
     (_limits_of_composition, ()),
 )
