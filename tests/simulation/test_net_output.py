@@ -76,5 +76,6 @@ def test_wrong_numbers_are_named_together(steady):
         steady.net_output(Auxiliaries(charger_efficiency=0.0, ambient_pressure=-1.0))
     paths = {problem.path for problem in error.value.problems}
     assert paths == {"auxiliaries.charger_efficiency", "auxiliaries.ambient_pressure"}
+    assert "2 wrong fields in the auxiliaries:" in str(error.value)
     with pytest.raises(saleg.InvalidEngine, match="auxiliaries = 3"):
         steady.net_output(3)

@@ -69,6 +69,12 @@ class NetOutput:
     delivered: float
 
 
+class InvalidAuxiliaries(InvalidEngine):
+    """Auxiliaries with fields out of range; `problems` lists them all."""
+
+    whole = "auxiliaries"
+
+
 def net_output_of(
     engine: Engine, cycle: np.ndarray | None, auxiliaries: Auxiliaries | None = None
 ) -> NetOutput:
@@ -92,7 +98,7 @@ def net_output_of(
     else:
         wrong = [Problem("auxiliaries", beside, "-", "must be saleg.Auxiliaries")]
     if wrong:
-        raise InvalidEngine(wrong)
+        raise InvalidAuxiliaries(wrong)
     if cycle is None:
         nan = math.nan
         return NetOutput(nan, nan, nan, beside.consumers, nan, nan, nan)
