@@ -40,7 +40,7 @@ def bouncing(left, right, springs):
         left,
         right,
         springs=springs,
-        friction=laws.NoFriction(),
+        friction=laws.ViscousFriction(0.0),
         alternator=laws.LinearLoad(load_constant=0.0),
         start=MidpointVelocity(frequency=30.0, stroke=0.5),
     )

@@ -7,7 +7,7 @@ Everything is a frozen dataclass of numbers in SI units; nothing here computes. 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, is_dataclass
 from pathlib import Path
 from typing import Any
@@ -325,6 +325,23 @@ def check_engine(engine: Any) -> None:
     if not isinstance(engine, Engine):
         raise InvalidEngine([Problem("engine", engine, "-", "must be a saleg.Engine")])
     engine.validate()
+
+
+def engine_problems(engines: Any) -> list[Problem]:
+    """Every wrong field of the `engines` a call is handed, each with its place among them."""
+    if isinstance(engines, (str, bytes, Mapping)) or not isinstance(engines, Collection):
+        return [Problem("engines", engines, "-", "must be a list of engines")]
+    if not len(engines):
+        return [Problem("engines", engines, "-", "there must be at least one")]
+    found: list[Problem] = []
+    once = {id(engine): (n, engine) for n, engine in reversed(list(enumerate(engines)))}
+    for n, engine in sorted(once.values(), key=lambda item: item[0]):
+        where = f"engines[{n}]"
+        if isinstance(engine, Engine):
+            found += (item._replace(path=f"{where}.{item.path}") for item in engine.problems())
+        else:
+            found.append(Problem(where, engine, "-", "must be a saleg.Engine"))
+    return found
 
 
 def warn_of_unusual(engine: Engine, *, frames: int = 1, **others: Any) -> None:
