@@ -21,6 +21,7 @@ from saleg.kernel.rhs import gas_of, rates_of_motion, refresh, rhs
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator, Supply
 from saleg.simulation.faulty_law import Fault, asked
+from saleg.simulation.law_ranges import check_flows
 
 if TYPE_CHECKING:
     from saleg.engine import Chamber, Engine
@@ -73,13 +74,14 @@ def prepare(engine: Engine) -> State:
     Raises
     ------
     LawError
-        If a law cannot become part of a kernel, or gives no number.
+        If a law cannot become part of a kernel, gives no number, or an area below zero.
     StartError
         If a law overflows or divides by zero there.
     """
     engine.check_laws()
     check_methods(engine.laws.values())
     try:
+        check_flows(engine)
         return _prepare(engine)
     except SalegError:
         raise

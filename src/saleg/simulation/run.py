@@ -73,7 +73,10 @@ class Run:
 
     @property
     def last_cycle_strokes(self) -> np.ndarray | None:
-        """Records of the last full cycle, left to left dead centre; None without one."""
+        """Records of the last full cycle, left to left dead centre; None without one.
+
+        Until a run has settled, those of an engine and of its mirror image are different strokes.
+        """
         start = last_cycle_start(self.strokes)
         return None if start is None else self.strokes[start : start + 2]
 
