@@ -98,6 +98,20 @@ def test_a_checked_function_keeps_its_face():
     assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
 
 
+def test_the_class_is_named_whose_arguments_are_wrong():
+    """Before, `__init__()` was."""
+    with pytest.raises(WrongArguments, match=r"in the arguments of DeadCentreControl\(\)"):
+        control.DeadCentreControl(3)
+
+
+def test_commands_there_are_not_are_named_beside_those_there_are():
+    signals = control.Plant(saleg.machines.thesis_base(), 0.1).signals
+    with pytest.raises(
+        SalegError, match=r"(?s)no command 'fuel'.*no command 'load'.*load_weight, "
+    ):
+        control.generator(signals, fuel=1, load=2)
+
+
 @pytest.fixture(scope="module")
 def found():
     method = optimize.GeneticAlgorithm(size=4, generations=1)

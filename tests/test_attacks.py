@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import math
 import pickle
 import sys
 import types
@@ -100,8 +101,10 @@ def test_a_law_and_its_number_in_one_call(base, turned):
 
 def test_all_unknown_paths_are_named(base):
     with pytest.raises(UnknownPath) as error:
-        base.replace(**{"boer": 1.0, "intake.presure": 2.0})
+        base.replace(**{"boer": 1.0, "intake.presure": 2.0, "bore": -1, "moving_mass": math.nan})
     assert "'boer'" in str(error.value)
+    assert "bore = -1.0 [m]" in str(error.value)  # before, the paths alone
+    assert "mass = nan" in str(error.value)
     assert "'intake.presure'" in str(error.value)
 
 
@@ -259,7 +262,8 @@ def test_a_damaged_cache_is_compiled_afresh(tmp_path, monkeypatch):
 
     code = (
         "import saleg; e = saleg.machines.thesis_base();"
-        "print(saleg.simulate(e, 0.05).strokes['x_end'].tolist())"
+        "run = saleg.reference.simulate(e, 0.05, jitted=True);"  # its kernel is compiled soonest
+        "print(run.strokes['x_end'].tolist())"
     )
     env = {**os.environ, "SALEG_CACHE_DIR": str(tmp_path)}
 

@@ -128,6 +128,12 @@ CALLS = [
     fails("steady_state", lambda base: saleg.steady_state(5), "engine = 5"),
     fails("simulate_many", lambda base: saleg.simulate_many(None, 0.1), "engines = None"),
     fails("steady_states", lambda base: saleg.steady_states(base), "engines = "),
+    fails("unknown", lambda base: saleg.simulate_many([base], 0.1, rtoll=1), "no setting of simul"),
+    fails(
+        "commanded",
+        lambda base: saleg.control.Plant(base, 0.1, rtoll=1, rtol=2),
+        "rtol = 2: must be a number from 1e-14 to 1e-2\n  rtoll = 1: no setting",
+    ),
     fails("executor", lambda base: saleg.steady_states([base], executor=3), "executor = 3"),
     fails("workers", lambda base: saleg.steady_states([base], workers=True), "workers = True"),
     fails("reference", lambda base: saleg.reference.simulate("x", 0.1), "engine = 'x'"),

@@ -9,6 +9,7 @@ from helpers import ROOT
 nbclient = pytest.importorskip("nbclient")
 nbformat = pytest.importorskip("nbformat")
 pytest.importorskip("ipykernel")
+run_sync = pytest.importorskip("jupyter_core.utils").run_sync
 kernelspec = pytest.importorskip("jupyter_client.kernelspec")
 manager = pytest.importorskip("jupyter_client.manager")
 
@@ -26,21 +27,33 @@ class ThisPython(manager.AsyncKernelManager):
         return kernelspec.KernelSpec(argv=command, display_name="tests", language="python")
 
 
-def outputs(path, folder):
-    """Outputs of the cells of a notebook by the cell's id."""
+@pytest.fixture(scope="module")
+def kernel():
+    """One kernel for all notebooks: it takes longer to begin than most of them."""
+    found = ThisPython(kernel_name="tests")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TQDM_DISABLE", "1")  # whether a bar shows depends on the machine
+        yield found
+    run_sync(found.shutdown_kernel)(now=True)
+
+
+def outputs(path, folder, kernel):
+    """Outputs of the cells of a notebook by the cell's id, in a folder and with no names yet."""
     notebook = nbformat.read(path, as_version=4)
-    settings = {"timeout": 300, "kernel_manager_class": ThisPython, "kernel_name": "tests"}
-    nbclient.NotebookClient(
-        notebook, resources={"metadata": {"path": folder}}, **settings
-    ).execute()
-    return {cell.id: cell.outputs for cell in notebook.cells if cell.cell_type == "code"}
+    begin = nbformat.v4.new_code_cell(f"%reset -f\n%cd -q {folder}")
+    notebook.cells.insert(0, begin)
+    client = nbclient.NotebookClient(notebook, km=kernel, timeout=300)
+    client.execute()
+    client.kc.stop_channels()
+    assert begin.outputs == []
+    cells = notebook.cells[1:]
+    return {cell.id: cell.outputs for cell in cells if cell.cell_type == "code"}
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 @pytest.mark.filterwarnings("ignore")  # of the tools that start a kernel, not of the library
-def test_a_notebook_runs_and_every_cell_shows_something(path, tmp_path, monkeypatch):
-    monkeypatch.setenv("TQDM_DISABLE", "1")  # whether a bar shows depends on the machine
-    shown = outputs(path, tmp_path)
+def test_a_notebook_runs_and_every_cell_shows_something(path, kernel, tmp_path):
+    shown = outputs(path, tmp_path, kernel)
     for name, found in shown.items():
         (result,) = found  # nothing on the streams of errors, such as a warning
         assert result.output_type == "execute_result", name

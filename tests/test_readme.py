@@ -1,10 +1,12 @@
 import re
+import runpy
 import shlex
 import subprocess
 import sys
 from contextlib import suppress
 from dataclasses import fields
 
+import matplotlib.pyplot as plt
 import pytest
 
 import saleg
@@ -16,18 +18,28 @@ RUN, TEST = (block.strip() for block in blocks("sh"))
 
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-PYTHON = [
-    pytest.param(block, id=f"{page.stem}-{number}")
-    for page in PAGES
-    for number, block in enumerate(blocks("python", page.read_text(encoding="utf-8")))
-]
 
 
-@pytest.mark.parametrize("block", PYTHON)
-def test_python_blocks_run(block, tmp_path):
-    script = tmp_path / "block.py"
-    script.write_text(block, encoding="utf-8")
-    subprocess.run([sys.executable, "-W", "error", str(script)], check=True, cwd=tmp_path)
+def python_of(page):
+    """Blocks of Python of a page, by names of their own."""
+    found = blocks("python", page.read_text(encoding="utf-8"))
+    return {f"{page.stem.lower()}_{number}": block for number, block in enumerate(found)}
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if python_of(page)], ids=lambda p: p.stem)
+def test_python_blocks_run(page, tmp_path, monkeypatch):
+    """Each as a script by itself, all in one process: it takes longer to begin than most blocks."""
+    monkeypatch.chdir(tmp_path)
+    for name, block in python_of(page).items():
+        (tmp_path / f"{name}.py").write_text(block, encoding="utf-8")
+        runpy.run_path(f"{name}.py", run_name="__main__")
+        plt.close("all")
+
+
+def test_the_first_block_runs_in_a_process_of_its_own(tmp_path):
+    (tmp_path / "block.py").write_text(blocks("python")[0], encoding="utf-8")
+    command = [sys.executable, "-W", "error", "block.py"]
+    subprocess.run(command, check=True, cwd=tmp_path)
 
 
 def test_the_run_command_runs():
@@ -53,9 +65,9 @@ def test_links_lead_somewhere():
 
 def test_python_blocks_pass_a_strict_type_check(tmp_path):
     pytest.importorskip("mypy")
-    for block in PYTHON:
-        name = block.id.replace("-", "_").lower()
-        (tmp_path / f"{name}.py").write_text(block.values[0], encoding="utf-8")
+    for page in PAGES:
+        for name, block in python_of(page).items():
+            (tmp_path / f"{name}.py").write_text(block, encoding="utf-8")
     settings = ["--strict", "--no-error-summary", "--ignore-missing-imports"]
     settings += ["--config-file", "", "--cache-dir", str(ROOT / ".mypy_cache" / "pages")]
     done = subprocess.run(

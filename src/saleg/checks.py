@@ -12,7 +12,7 @@ Examples
 >>> later(None, at=-1.0)
 Traceback (most recent call last):
 saleg.errors.WrongArguments: 2 wrong fields in the arguments of later():
-  times = None: must be a list of numbers, or the like
+  times = None: must be a list of finite numbers, or the like
   at = -1.0: must be a number >= 0
 """
 
@@ -28,7 +28,7 @@ from typing import Any, NamedTuple, ParamSpec, TypeVar
 import numpy as np
 
 from saleg.columns import Column
-from saleg.errors import Problem, WrongArguments
+from saleg.errors import Problem, WrongArguments, shown
 from saleg.quantities import Limits, as_float, is_whole
 
 P = ParamSpec("P")
@@ -46,16 +46,19 @@ class Check(NamedTuple):
         What a wrong value should have been.
     or_none : bool
         Whether None is right, too.
+    told : callable
+        From a wrong value to what is wrong in it, in words, where its own text may not show it.
     """
 
     read: Callable[[Any], Any]
     wanted: str
     or_none: bool = False
+    told: Callable[[Any], str] = lambda value: ""
 
     @property
     def optional(self) -> Check:
         """The same, or None."""
-        return Check(self.read, f"{self.wanted}, or None", True)
+        return Check(self.read, f"{self.wanted}, or None", True, self.told)
 
 
 def checked(**checks: Check) -> Callable[[Callable[P, R]], Callable[P, R]]:
@@ -75,6 +78,9 @@ def checked(**checks: Check) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
     def decorate(function: Callable[P, R]) -> Callable[P, R]:
         names = tuple(inspect.signature(function).parameters)
+        whose = function.__name__
+        if whose == "__init__":  # of the class that is called
+            whose = function.__qualname__.split(".")[-2]
 
         @functools.wraps(function)
         def call(*args: Any, **given: Any) -> Any:
@@ -83,7 +89,7 @@ def checked(**checks: Check) -> Callable[[Callable[P, R]], Callable[P, R]]:
             for name, value in given.items():
                 given[name] = _read(checks, name, value, wrong)
             if wrong:
-                raise WrongArguments(wrong, f"arguments of {function.__name__}()")
+                raise WrongArguments(wrong, f"arguments of {whose}()")
             return function(*read, *args[len(names) :], **given)
 
         return call
@@ -98,7 +104,7 @@ def _read(checks: dict[str, Check], name: str, value: Any, wrong: list[Problem])
         return value
     found = check.read(value)
     if found is None:
-        wrong.append(Problem(name, value, "-", check.wanted))
+        wrong.append(Problem(name, value, "-", check.wanted + check.told(value)))
     return found
 
 
@@ -182,25 +188,43 @@ def _series(value: Any, read: Callable[[Any], Any]) -> list[Any] | None:
     return None if any(item is None for item in found) else found
 
 
-def each(check: Check, wanted: str) -> Check:
-    """Check for a list, or the like, of what passes a check."""
-    return Check(
-        lambda value: _series(value, check.read), f"must be a list of {wanted}, or the like"
-    )
+def each(check: Check, wanted: str, *, empty: bool = True) -> Check:
+    """Check for a list, or the like, of what passes a check; whether it may be empty."""
+
+    def read(value: Any) -> list[Any] | None:
+        found = _series(value, check.read)
+        return None if found is None or not (found or empty) else found
+
+    def told(value: Any) -> str:
+        items = _series(value, lambda item: (item,)) or []
+        wrong = (n for n, (item,) in enumerate(items) if check.read(item) is None)
+        return next((f"; item {n} is {_plainly(items[n][0])}" for n in wrong), "")
+
+    kind = "a list" if empty else "a list, not empty,"
+    return Check(read, f"must be {kind} of {wanted}, or the like", told=told)
+
+
+def _plainly(value: Any) -> str:
+    """A value as text, numbers of any type as floats."""
+    found = as_float(value)
+    return shown(value if found is None else found)
 
 
 NUMBER = number()
 POSITIVE = number(0.0, open_low=True)
-SERIES = each(NUMBER, "numbers")
+SERIES = each(NUMBER, "finite numbers")
+SOME = each(NUMBER, "finite numbers", empty=False)
 ONE_OR_MORE = Check(
-    lambda value: SERIES.read(value) if NUMBER.read(value) is None else NUMBER.read(value),
-    "must be a finite number, or a list of such numbers",
+    lambda value: SOME.read(value) if NUMBER.read(value) is None else NUMBER.read(value),
+    "must be a finite number, or a list, not empty, of such numbers",
+    told=SOME.told,
 )
 FLAG = Check(
     lambda value: bool(value) if isinstance(value, (bool, np.bool_)) else None,
     "must be True or False",
 )
 TEXT = a(str, wanted="text")
+NAMES = each(TEXT, "names")
 FUNCTION = Check(lambda value: value if callable(value) else None, "must be a function")
 
 

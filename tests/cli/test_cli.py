@@ -120,7 +120,7 @@ def test_a_run_that_ends_badly_is_still_shown(capsys):
 
 
 def test_laws_are_changed_by_name(capsys):
-    words = ["--set", "friction=FrictionShare", "--set", "name=tuned"]
+    words = ["--set", "friction=BlairViscousFriction", "--set", "name=tuned"]
     assert run("thesis-base", *words, "--duration", "0.5") == 0
     assert capsys.readouterr().out.startswith("tuned: ")
 

@@ -87,18 +87,46 @@ def report(tmp_path, engine, cache, whole=True):
 BASE = "engine = saleg.machines.thesis_base()"
 
 
-def test_a_second_process_hits_the_cache(tmp_path):
-    cache = tmp_path / "cache"
-    first = report(tmp_path, BASE, cache)
-    second = report(tmp_path, BASE, cache)
-    assert (first["hits"], first["misses"]) == (0, 1)
-    assert (second["hits"], second["misses"]) == (1, 0)
-    assert first["x"] == second["x"]
+@pytest.fixture(scope="module")
+def cold(tmp_path_factory):
+    """A cache folder filled by processes that start at once, and what each of them reports."""
+    folder = tmp_path_factory.mktemp("cold")
+    cache = folder / "cache"
+    environment = {**os.environ, "SALEG_CACHE_DIR": str(cache)}
+    environment.pop("NUMBA_CACHE_DIR", None)
+    code = f"import saleg\n{BASE}\nwhole = True\n{REPORT}"
+    workers = [
+        subprocess.Popen(
+            [sys.executable, "-c", code],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env=environment,
+        )
+        for _ in range(3)
+    ]
+    reports = []
+    for worker in workers:
+        out, err = worker.communicate(timeout=300)
+        assert worker.returncode == 0, err.decode()
+        reports.append(json.loads(out.splitlines()[-1]))
+    return cache, reports
 
 
-def test_changed_numbers_do_not_recompile(tmp_path):
-    cache = tmp_path / "cache"
-    first = report(tmp_path, BASE, cache)
+def test_of_parallel_cold_starts_one_compiles(cold):
+    _, reports = cold
+    assert len({json.dumps(item["x"]) for item in reports}) == 1
+    assert sorted((item["hits"], item["misses"]) for item in reports) == [(0, 1), (1, 0), (1, 0)]
+
+
+def test_a_later_process_hits_the_cache(cold, tmp_path):
+    cache, (first, *_) = cold
+    later = report(tmp_path, BASE, cache)
+    assert (later["hits"], later["misses"]) == (1, 0)
+    assert later["x"] == first["x"]
+
+
+def test_changed_numbers_do_not_recompile(cold, tmp_path):
+    cache, (first, *_) = cold
     other = report(tmp_path, BASE + ".replace(bore=0.06, egr=0.2)", cache)
     assert other["hits"] == 1
     assert other["x"] != first["x"]
@@ -116,8 +144,8 @@ engine = saleg.machines.thesis_base().replace(springs=MySprings())
 """
 
 
-def test_an_edited_law_helper_or_constant_recompiles(tmp_path):
-    cache = tmp_path / "cache"
+def test_an_edited_law_helper_or_constant_recompiles(cold, tmp_path):
+    cache, _ = cold
     write_law(tmp_path)
     base = report(tmp_path, BASE, cache, whole=False)
     same = report(tmp_path, CUSTOM, cache, whole=False)
@@ -133,7 +161,7 @@ def test_an_edited_law_helper_or_constant_recompiles(tmp_path):
         assert edited["frequency"] > 1.005 * base["frequency"]
 
 
-def test_engines_with_different_laws_in_one_process_never_mix(tmp_path):
+def test_engines_with_different_laws_in_one_process_never_mix(cold, tmp_path):
     write_law(tmp_path, name="law_a", helper="helper_a", scale=1.0)
     write_law(tmp_path, name="law_b", helper="helper_b", scale=1.3)
     code = """
@@ -151,8 +179,8 @@ def test_engines_with_different_laws_in_one_process_never_mix(tmp_path):
     assert same(first[2], stiff)
     print("fine")
     """
-    assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
-    assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
+    assert script(tmp_path, code, cold[0]).stdout.strip() == "fine"
+    assert script(tmp_path, code, cold[0]).stdout.strip() == "fine"
 
 
 def test_left_and_right_may_have_different_laws(base):
@@ -162,29 +190,9 @@ def test_left_and_right_may_have_different_laws(base):
     assert (run.strokes["heat_lost"][1:, 1] > 0.0).all()
 
 
-def test_parallel_cold_starts(tmp_path):
-    cache = tmp_path / "cache"
-    env = {**os.environ, "SALEG_CACHE_DIR": str(cache)}
-    code = f"import saleg\n{BASE}\nwhole = True\n{REPORT}"
-    workers = [
-        subprocess.Popen(
-            [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=env
-        )
-        for _ in range(3)
-    ]
-    reports = []
-    for worker in workers:
-        out, err = worker.communicate(timeout=300)
-        assert worker.returncode == 0, err.decode()
-        reports.append(json.loads(out.splitlines()[-1]))
-    assert len({json.dumps(item["x"]) for item in reports}) == 1
-    assert sum(item["misses"] for item in reports) == 1
-
-
-def test_a_planted_module_is_not_executed(tmp_path):
-    cache = tmp_path / "cache"
-    first = report(tmp_path, BASE, cache)
-    module = next(cache.glob("saleg_kernel_*.py"))
+def test_a_planted_module_is_not_executed(cold, tmp_path):
+    cache, (first, *_) = cold
+    module = cache / f"{first['name']}.py"
     text = module.read_text()
     module.write_text("raise SystemExit('planted')\n")
     again = report(tmp_path, BASE, cache)
@@ -200,7 +208,7 @@ def test_a_folder_others_may_write_to_is_not_used(tmp_path, monkeypatch):
     monkeypatch.setenv("SALEG_CACHE_DIR", str(shared))
     with pytest.warns(RuntimeWarning, match="others may write"):
         assert usable_folder() is None
-    out = script(tmp_path, f"import saleg\n{BASE}\nwhole = True\n{REPORT}", shared)
+    out = script(tmp_path, f"import saleg\n{BASE}\nwhole = False\n{REPORT}", shared)
     assert "others may write" in out.stderr
     assert list(shared.iterdir()) == []
 
@@ -233,7 +241,7 @@ def test_lock_is_released(tmp_path):
             pass
 
 
-def test_law_without_source_runs_uncached(tmp_path):
+def test_law_without_source_runs_uncached(cold, tmp_path):
     """As typed into a plain interpreter."""
     code = """
     import saleg
@@ -261,10 +269,10 @@ def test_law_without_source_runs_uncached(tmp_path):
     assert abs(typed.strokes["x_end"] - given.strokes["x_end"]).max() < 1e-12
     print("fine")
     """
-    assert script(tmp_path, code, tmp_path / "cache").stdout.strip() == "fine"
+    assert script(tmp_path, code, cold[0]).stdout.strip() == "fine"
 
 
-def test_law_of_a_notebook_cell_runs_compiled(tmp_path):
+def test_law_of_a_notebook_cell_runs_compiled(cold, tmp_path):
     pytest.importorskip("IPython")
     code = '''
     from IPython.core.interactiveshell import InteractiveShell
@@ -305,5 +313,5 @@ def test_law_of_a_notebook_cell_runs_compiled(tmp_path):
     assert shell.user_ns["run"].performance.power < run.performance.power
     print("fine")
     '''
-    out = script(tmp_path, code, tmp_path / "cache")
+    out = script(tmp_path, code, cold[0])
     assert out.stdout.strip().endswith("fine"), out.stdout + out.stderr

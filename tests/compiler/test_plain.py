@@ -32,7 +32,7 @@ def results():
     base = saleg.machines.thesis_base()
     fixed = {"method": "fixed", "step": 5e-5}
     run = saleg.simulate(base, 0.05, history=1, **fixed)
-    found = saleg.steady_state(base, rtol=1e-10)
+    found = saleg.steady_state(base, rtol=1e-8)
     at_rest = saleg.machines.thesis_transient().replace(start=AtRest())
     motored = saleg.control.simulate(at_rest, saleg.Controller(), 0.1, compiled=True, **fixed)
     return {

@@ -399,6 +399,11 @@ def test_a_plant_refuses_a_command_and_goes_on(transient):
     plant.advance()
     with pytest.raises(ControllerError, match="equivalence_ratio"):
         plant.command(generator(plant.signals, equivalence_ratio=-1.0))
+    wrong = {"load_weight": -3, "equivalence_ratio": np.nan, "intake_temperature": -5}
+    with pytest.raises(ControllerError) as caught:  # before, load_weight alone
+        plant.command(generator(plant.signals, force="x", **wrong))
+    for part in ("load_weight = -3,", "equivalence_ratio = nan", "temperature = -5", "force = 'x'"):
+        assert part in str(caught.value)
     with pytest.raises(SalegError, match="duration"):
         plant.advance(0.0)
     plant.advance()
@@ -505,7 +510,9 @@ def test_an_actuator_moves_on_after_a_single_command(transient):
 
 
 def test_engines_without_fuel_and_with_unlike_sides_are_controlled(transient):
-    chamber = saleg.BounceChamber(bore=0.0345, half_stroke=0.0467)
+    chamber = saleg.BounceChamber(
+        bore=0.0345, half_stroke=0.0467, gas_properties=saleg.laws.ConstantGamma()
+    )
     closed = saleg.Engine.mirrored(
         saleg.Translator(mass=4.93), chamber, springs=transient.springs, start=AtRest()
     )
@@ -656,6 +663,17 @@ def test_a_demand_from_a_file_and_from_arrays(tmp_path):
     assert read == Demand.of(np.array([0, 2, 2]), [3900, 3900, 1900])
     path.write_text("0,3900\n2,3900\n2,1900\n")
     assert Demand.read(path) == read
+    for heads in ("time (ms), P [kW]", "t / ms,P_kW", "ms,kW"):
+        path.write_text(f"{heads}\n0,3.9\n2000,3.9\n2000,1.9\n")
+        assert Demand.read(path) == read  # before, as 3.9 W
+    path.write_text("t [h],P [hp]\n0,3.9\n1,x\n2\n")
+    with pytest.raises(InvalidController) as caught:
+        Demand.read(path)
+    for part in ("4 wrong fields", "'h' is no unit here", "'hp' is", "line 3", "line 4"):
+        assert part in str(caught.value)
+    path.write_text("0,3.9 kW\n1,1900\n")
+    with pytest.raises(InvalidController, match="line 1"):  # before, taken for heads
+        Demand.read(path)
     path.write_text("t,power\n0,3900\n1,abc\n")
     with pytest.raises(InvalidController, match="line 3"):
         Demand.read(path)

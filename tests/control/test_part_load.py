@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 import saleg
 from saleg import control
 from saleg.control import Demand
-from saleg.errors import InvalidController
+from saleg.errors import InvalidController, WrongArguments
 from saleg.files.tables import read_table
 
 VALUES = {
@@ -96,3 +96,32 @@ def test_a_saved_map_is_read_back(tmp_path, known):
 
 
 TEXTS = ("status", "message", "method", "kind", "stable")
+
+
+def test_all_that_makes_no_map_is_named(transient):
+    """Before, an error of numpy or pandas about the first."""
+    with pytest.raises(WrongArguments, match=r"values = {}: must have at least one quantity"):
+        control.part_load_map(transient, {})
+    wrong = {"foo": (1, 2), "equivalence_ratio": ("x",), "bore": (), "friction": (1.0,)}
+    margins = {"bar": (0, 1), "power": (2.0, 1.0), "status": (0, 1), "bore": (0, math.inf)}
+    with pytest.raises(WrongArguments) as caught:
+        control.part_load_map(transient, wrong, margins=margins)
+    text = str(caught.value)
+    assert [problem.path for problem in caught.value.problems] == [
+        "values['foo']",
+        "values['equivalence_ratio']",
+        "values['bore']",
+        "values['friction']",
+        "margins['bar']",
+        "margins['power']",
+        "margins['status']",
+    ]
+    assert "item 0 is 'x'" in text
+    for call in (
+        lambda: control.operating_line(transient, []),
+        lambda: control.operating_map(transient, "bore", []),
+        lambda: control.operating_grid(transient, [], [0.6]),
+        lambda: control.part_load_map(transient, {"bore": (0.06,)}, powers=[]),
+    ):
+        with pytest.raises(WrongArguments, match="1 wrong field"):
+            call()

@@ -189,6 +189,17 @@ def test_wrong_frames_are_named_together(base):
         reference.simulate_on_one_frame([base, on(base, FRAME)], FRAME, 0.1)
     with pytest.raises(saleg.errors.InvalidEngine, match="must be a Frame"):
         reference.simulate_on_one_frame([base], None, 0.1)
+    with pytest.raises(saleg.errors.InvalidEngine, match=r"engines = .*must be a list of engines"):
+        reference.simulate_on_one_frame(base, FRAME, 0.1)  # before, a TypeError
+    with pytest.raises(saleg.errors.WrongArguments) as found:  # before, the engine alone
+        reference.simulate_on_one_frame([base, 3, base.replace(bore=-1)], None, -1, rtol=2)
+    assert [p.path for p in found.value.problems] == [
+        "engines[1]",
+        "engines[2].bore",
+        "frame",
+        "rtol",
+        "duration",
+    ]
 
 
 def test_law_that_moves_its_frame_asks_for_the_state(base):

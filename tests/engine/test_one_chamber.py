@@ -40,7 +40,7 @@ def bouncing(left, right, springs):
         left,
         right,
         springs=springs,
-        friction=laws.NoFriction(),
+        friction=laws.ViscousFriction(0.0),
         alternator=laws.LinearLoad(load_constant=0.0),
         start=MidpointVelocity(frequency=30.0, stroke=0.5),
     )
@@ -118,6 +118,13 @@ def test_mirror_image_is_exact(one_spring):
     )
 
 
+def test_what_nothing_pushes_back_leaves_by_the_open_end(one_spring):
+    run = saleg.simulate(one_spring.replace(springs=laws.OneSidedSprings()), 3.0)
+    assert run.status is saleg.Status.HEAD_CONTACT
+    assert "the open right side" in run.message
+    assert "nothing pushed it back" in run.message
+
+
 def test_everything_goes_with_it(one_spring, steady, tmp_path):
     path = tmp_path / "one.toml"
     path.write_text(one_spring.to_toml())
@@ -147,7 +154,7 @@ def test_bore_of_the_piston_is_given_once(one_spring):
 
 def test_two_open_ends_and_double_pressures_are_refused(base):
     wrong = [
-        (Engine(Translator(mass=2.0), None, None), {"pressure"}),
+        (Engine(Translator(mass=2.0), None, None), {"left", "right"}),
         (
             Engine(Translator(mass=2.0), base.left, None).replace(
                 back_pressure=1e5, back_area=1e-3

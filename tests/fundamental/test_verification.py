@@ -286,10 +286,15 @@ def test_a_charge_is_renewed_at_bottom_dead_centre(base):
         assert after["T"][side] == pytest.approx(300.0 * squeeze**0.4, rel=1e-12)
 
 
+def beside_a_bounce_chamber(base, **share):
+    """One sealed cylinder, and friction by the fuel it gets."""
+    bounce = saleg.BounceChamber(bore=0.064, half_stroke=0.1, pressure=3e5)
+    return dataclasses.replace(sealed(base), right=bounce, friction=laws.FrictionShare(**share))
+
+
 def test_one_sealed_side_beside_another_kind(base):
     """Either side may be sealed, and the mirror image runs as a mirror image."""
-    bounce = saleg.BounceChamber(bore=0.064, half_stroke=0.1, pressure=3e5)
-    engine = dataclasses.replace(sealed(base), right=bounce)
+    engine = beside_a_bounce_chamber(base)
     mirrored = dataclasses.replace(engine, left=engine.right, right=engine.left)
     run, mirror = (saleg.simulate(each, 0.2, rtol=1e-9) for each in (engine, mirrored))
     assert run.fired
@@ -320,8 +325,7 @@ def test_the_cycle_of_a_steady_state_has_its_first_instant_too():
     np.testing.assert_allclose(found.strokes["heat_released"], found.orbit.strokes["heat_released"])
 
 
-def test_a_law_sees_the_fuel_of_a_charge_renewed_at_a_dead_centre():
-    engine = fm.to_engine(base_like(fm.ConstantLoad(0.814)))
-    found = saleg.steady_state(engine.replace(friction=laws.FrictionShare(share=0.02, initial=5.0)))
+def test_a_law_sees_the_fuel_of_a_charge_renewed_at_a_dead_centre(base):
+    found = saleg.steady_state(beside_a_bounce_chamber(base, share=0.02, initial=5.0))
     assert found.method == "fixed point"
     assert found.energy.friction == pytest.approx(0.02 * found.energy.fuel, rel=1e-5)

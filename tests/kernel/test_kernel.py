@@ -51,7 +51,7 @@ def test_order_of_convergence_across_events(base, converged, order):
     ids=["burn rate that jumps", "springs that lift off"],
 )
 def test_order_of_convergence_across_breakpoints(base, law):
-    engine = base.replace(**law)
+    engine = base.replace(friction=laws.BlairViscousFriction(), **law)
     exact = cycle_figures(engine, method="fixed", order=8, step=5e-6)
     assert observed_order(engine, 4, exact) == pytest.approx(4, abs=0.2)
     assert cycle_figures(engine, rtol=1e-12) == pytest.approx(exact, rel=1e-11)

@@ -60,5 +60,9 @@ def test_what_is_no_motion_is_named():
         prescribed_motion(LinearLoad(), [0.0, 0.2, 0.1, 0.3], [0.0, 1.0, 2.0, 3.0])
     with pytest.raises(MotionError, match="at least four"):
         prescribed_motion(LinearLoad(), [0.0, 0.1, 0.2], [0.0, 1.0, 2.0])
+    odd = X.copy()
+    odd[17] = np.nan
+    with pytest.raises(WrongArguments, match=r"x = .*finite numbers, or the like; item 17 is nan"):
+        prescribed_motion(LinearLoad(), T, odd)
     with pytest.raises(WrongArguments, match="alternator"):
         prescribed_motion(None, T, X)

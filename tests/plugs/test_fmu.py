@@ -7,8 +7,9 @@ import pytest
 
 import saleg
 from saleg.control import Plant, generator
-from saleg.errors import SalegError, UnknownPath
+from saleg.errors import SalegError, UnknownPath, WrongArguments
 from saleg.plugs.fmu import to_fmu
+from saleg.simulation.settings import SettingsError
 
 fmpy = pytest.importorskip("fmpy")
 pytest.importorskip("pythonfmu")
@@ -136,6 +137,13 @@ def test_a_unit_says_how_the_motion_ended(path, tmp_path):
     assert any("the stroke fell to" in message for message in unit.messages)
 
 
+@pytest.mark.parametrize("name", ["hold", "EngineSlave", "globals"])
+def test_the_name_of_a_file_does_not_matter(tmp_path, name):
+    """Before, a unit called hold could not be written: its class took the place of a function."""
+    unit = Unit(to_fmu(BASE, tmp_path / f"{name}.fmu"), tmp_path / "unit")
+    assert unit.get("x") == pytest.approx([-0.09])
+
+
 def test_a_name_python_knows_and_an_earlier_file(tmp_path):
     path = to_fmu(BASE, tmp_path / "json.fmu", rtol=np.float64(1e-7))
     with pytest.raises(SalegError, match=r"json\.fmu"):
@@ -149,4 +157,14 @@ def test_what_cannot_become_a_unit_is_named(tmp_path):
         to_fmu(BASE, tmp_path / "Base.fmu", parameters=["friction"])
     with pytest.raises(SalegError, match=r"letters and \.fmu"):
         to_fmu(BASE, tmp_path / "base case.fmu")
+    with pytest.raises(UnknownPath, match=r"(?s)no 'foo'.*no 'bar'.*'bore' stands twice"):
+        to_fmu(BASE, tmp_path / "Base.fmu", parameters=["foo", "bar", "bore", "bore"])
+    with pytest.raises(SalegError, match=r"parameters = 'moving_mass': must be a list of names"):
+        to_fmu(BASE, tmp_path / "Base.fmu", parameters="moving_mass")
+    with pytest.raises(SettingsError, match=r"rtoll = 3: no setting of simulate"):
+        to_fmu(BASE, tmp_path / "Base.fmu", rtoll=3)
+    with pytest.raises(WrongArguments) as caught:  # before, one at a time
+        to_fmu(BASE.replace(bore=-1), 3, parameters=3, overwrite="no", rtol=np.nan, stall_stroke=-1)
+    wrong = ["bore", "path", "parameters", "overwrite", "rtol", "stall_stroke"]
+    assert [problem.path for problem in caught.value.problems] == wrong
     assert list(tmp_path.iterdir()) == []

@@ -11,7 +11,7 @@ import pytest
 
 import saleg
 from saleg.control import Plant, Plants, generator
-from saleg.errors import ControllerError, InvalidEngine
+from saleg.errors import ControllerError, InvalidEngine, WrongArguments
 from saleg.export import MissingExtra
 from saleg.laws import Actuators
 from saleg.plugs.task import TaskError
@@ -135,6 +135,73 @@ def test_what_makes_no_sense_is_named():
         EngineVectorEnv(BASE, 2, strokes=0)
     with pytest.raises(SettingsError, match=r"engines\[1\] has other laws"):
         Plants([BASE, BASE.replace(friction=saleg.laws.ConstantFriction())], 1.0)
+
+
+def test_all_that_makes_no_sense_is_named_where_an_environment_is_made():
+    """Before, the first of the ranges alone, and settings only where an episode began."""
+    wrong = {
+        "actions": {"load_weight": (np.nan, 1), "fuel": (0, 1), "equivalence_ratio": (-1, 1)},
+        "observations": {"power": (1.0, 0.0)},
+        "strokes": -3,
+        "duration": 0,
+        "randomise": 3,
+        "rtoll": 1,
+        "rtol": -1,
+    }
+    for make in (EngineEnv, lambda engine, **given: EngineVectorEnv(engine, 2.5, **given)):
+        with pytest.raises(TaskError) as caught:
+            make(BASE, **wrong)
+        text = str(caught.value)
+        for name in wrong:
+            assert f"{name} = " in text or f"{name}[" in text
+        assert "actions['equivalence_ratio'] = (-1.0, 1.0): must be within the limits" in text
+        assert "rtoll = 1: no setting of simulate; did you mean 'rtol'?" in text
+    assert "num_envs = 2.5" in text
+    for given in ({"actuators": 3}, {"reward": 3}, {"misfire_ends": "no"}):
+        with pytest.raises(TaskError, match=next(iter(given))):
+            EngineEnv(BASE, **given)
+    with pytest.raises(TaskError, match="num_envs = 0"):
+        EngineVectorEnv(BASE, 0)
+
+
+def test_actions_and_rewards_of_another_shape_are_refused():
+    """Before, a second action was dropped, and a reward of NaN passed."""
+    env, envs = EngineEnv(BASE), EngineVectorEnv(BASE, 2)
+    env.reset()
+    envs.reset()
+    for action in ([0.0, 0.0], "x", 0.0, [[0.0]], None, []):
+        with pytest.raises(
+            TaskError, match=r"action = .*of shape \(1,\), the last for load_weight"
+        ):
+            env.step(action)
+    for actions in (np.zeros((3, 1)), np.zeros(2), "x"):
+        with pytest.raises(TaskError, match=r"action = .*of shape \(2, 1\)"):
+            envs.step(actions)
+    assert env.step([0.0])[4]["t"] > 0.0
+    with pytest.raises(TaskError, match="seed"):
+        envs.reset(seed=[1, 2, 3])
+    for value in (np.nan, "much", [1.0, 2.0, 3.0]):
+        for odd in (
+            EngineEnv(BASE, reward=lambda *_, v=value: v),
+            EngineVectorEnv(BASE, 2, reward=lambda *_, v=value: v),
+        ):
+            odd.reset()
+            with pytest.raises(TaskError, match="must give finite numbers of shape"):
+                odd.step(np.zeros(odd.action_space.shape))
+
+
+def test_many_plants_name_all_that_is_wrong():
+    with pytest.raises(WrongArguments) as caught:
+        Plants([BASE, 3, BASE.replace(bore=-1)], duration=-1.0, rtoll=3)
+    for part in ("engines[1] = 3", "engines[2].bore = -1.0", "duration = -1.0", "rtoll = 3"):
+        assert part in str(caught.value)
+    plants = Plants([BASE, BASE], 1.0)
+    with pytest.raises(ControllerError, match=r"load_weight = 'x', force = .*of shape \(2,\)"):
+        plants.advance(generator(plants.signals, load_weight="x", force=np.zeros(3)))
+    with pytest.raises(ControllerError) as refused:
+        plants.advance(generator(plants.signals, load_weight=-3.0, sweep=np.array([0.0, np.nan])))
+    assert "engine 0: load_weight = -3.0: must" in str(refused.value)
+    assert "engine 1: load_weight = -3.0, sweep = nan: must" in str(refused.value)
 
 
 def test_refused_commands_move_no_engine():

@@ -62,7 +62,7 @@ def test_crankcase_rings_wall_and_leaking_gas_spring_agree(single):
 
 
 def test_laws_that_look_at_charge_wall_and_motored_pressure_agree(boosted):
-    """Left by flow, right in an instant; leaking rings take of either charge."""
+    """Left by flow, right in an instant, both scattered; leaking rings take of either charge."""
     leak = laws.RingLeak(gap=1e-6)
     left = dataclasses.replace(
         boosted.left,
@@ -76,8 +76,15 @@ def test_laws_that_look_at_charge_wall_and_motored_pressure_agree(boosted):
         gas_exchange=laws.InstantExchange(egr=0.1),
         leak=leak,
     )
-    check = compare(dataclasses.replace(boosted, left=left, right=right), 0.06)
+    spread = laws.CyclicVariability(seed=3, fuel=0.05, delay=0.02, duration=0.05)
+    engine = dataclasses.replace(boosted, left=left, right=right, scatter=spread)
+    check = compare(engine, 0.06)
     assert check.strokes["heat_lost"].max(axis=0).min() > 10.0
+    # Charges scatter here too.
+    plain = engine.replace(**{f"scatter.{name}": 0.0 for name in ("fuel", "delay", "duration")})
+    ends = [saleg.simulate(one, 0.06).strokes["x_end"] for one in (engine, plain)]
+    count = min(map(len, ends))
+    assert np.abs(ends[0][:count] - ends[1][:count]).max() > 1e-5
 
 
 def test_plain_and_compiled_are_the_same_equations(single):

@@ -54,6 +54,15 @@ def test_ports_that_let_gas_flow_are_charged_for_all_they_deliver(base):
     assert run.net_output().delivered == pytest.approx(expected, rel=1e-6)
 
 
+def test_ports_that_let_nothing_in_are_charged_for_nothing(base):
+    closed = {"gas_exchange.intake_width": 0.0, "intake.pressure": 1.4e5}
+    run = saleg.simulate(base.replace(gas_exchange=laws.PortFlow(), **closed), 0.3)
+    net = run.net_output()
+    assert not run.last_cycle_strokes["supplied_mass"].any()
+    assert (net.delivered, net.charging) == (0.0, 0.0)
+    assert "no fresh gas comes in" in run.message
+
+
 def test_motored_and_unfinished_runs(base):
     motored = saleg.simulate(base.replace(equivalence_ratio=0.0), 0.1)
     assert math.isnan(motored.net_output().net_efficiency)
@@ -67,5 +76,6 @@ def test_wrong_numbers_are_named_together(steady):
         steady.net_output(Auxiliaries(charger_efficiency=0.0, ambient_pressure=-1.0))
     paths = {problem.path for problem in error.value.problems}
     assert paths == {"auxiliaries.charger_efficiency", "auxiliaries.ambient_pressure"}
+    assert "2 wrong fields in the auxiliaries:" in str(error.value)
     with pytest.raises(saleg.InvalidEngine, match="auxiliaries = 3"):
         steady.net_output(3)

@@ -6,7 +6,7 @@ import pytest
 import saleg
 from saleg import laws
 from saleg.control import Plant, generator
-from saleg.errors import UnknownPath
+from saleg.errors import UnknownPath, WrongArguments
 from saleg.kernel import layout
 from saleg.steady import NoLinearModel, NoSteadyState
 from saleg.steady.entry_names import ENTRY_NAMES
@@ -171,6 +171,24 @@ def test_what_cannot_be_had_is_refused(engine, steady):
         steady.linear(["bore"])
     with pytest.raises(UnknownPath):
         steady.linear(["no.such.path"])
+    with pytest.raises(UnknownPath, match=r"input 'load': no such input.*'load_weight'"):
+        steady.linear(["load"])  # before, only 'leak' was suggested
+    with pytest.raises(WrongArguments, match="2 wrong fields"):
+        steady.linear("load_weight", "power")  # before, output 'p'
+    with pytest.raises(NoLinearModel) as caught:  # before, one at a time, and twins silently
+        steady.linear(
+            ["bore", "foo", "load_weight", "load_weight", "translator.mass", "moving_mass"],
+            ["power", "bar", "power"],
+        )
+    for part in (
+        "input 'bore': must not change",
+        "no 'foo'",
+        "input 'load_weight': is named twice",
+        "input 'moving_mass': is named twice",
+        "output 'bar': must be one of",
+        "output 'power': is named twice",
+    ):
+        assert part in str(caught.value)
     off = saleg.steady_state(engine.replace(equivalence_ratio=0.0), effort=saleg.Effort.QUICK)
     with pytest.raises(NoSteadyState):
         off.linear()

@@ -195,7 +195,9 @@ def test_engines_without_a_steady_state_say_so(base, changes, status):
 
 
 def test_engines_that_never_repeat_are_simulated(base):
-    engine = base.replace(misfires=laws.ScheduledMisfires(first=3))
+    engine = base.replace(
+        misfires=laws.ScheduledMisfires(first=3), friction=laws.BlairViscousFriction()
+    )
     assert not repeats_itself(engine)
     found = saleg.steady_state(engine)
     assert found.method == "simulation"
@@ -383,6 +385,7 @@ def test_a_steady_state_says_first_what_it_is(base):
 )
 def test_breakpoints_do_not_hide_a_steady_state(base, law):
     """A smooth engine takes as many half cycles; steps across a breakpoint took ten times these."""
+    base = base.replace(friction=laws.BlairViscousFriction())  # as in a design: one kernel for both
     smooth = saleg.steady_state(base)
     found = saleg.steady_state(base.replace(**law))
     assert found.method == "fixed point", found.message

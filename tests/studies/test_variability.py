@@ -133,17 +133,3 @@ def test_files_and_wrong_numbers(engine, transient, tmp_path):
         saleg.studies.variability(transient)
     with pytest.raises(saleg.errors.WrongArguments, match="2 wrong fields"):
         saleg.studies.variability(engine, 0, -1.0)
-
-
-def test_breathing_engines_scatter_too(base):
-    ports = laws.PortFlow(exhaust_width=0.1, exhaust_height=0.03, intake_width=0.1)
-    breathing = base.replace(
-        gas_exchange=ports, scatter=SPREAD, **{"intake.pressure": 1.4e5, "equivalence_ratio": 0.4}
-    )
-    run = saleg.simulate(breathing, 0.2, rtol=1e-10)
-    again = reference.simulate(breathing, 0.2, jitted=True)
-    np.testing.assert_allclose(
-        run.strokes["x_end"][: len(again.strokes)], again.strokes["x_end"], atol=1e-7
-    )
-    plain = saleg.simulate(breathing.replace(scatter=laws.NoScatter()), 0.2, rtol=1e-10)
-    assert abs(run.strokes["x_end"][-1] - plain.strokes["x_end"][-1]) > 1e-5

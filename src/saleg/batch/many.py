@@ -151,7 +151,7 @@ def simulate_many(
     DataFrame
         One row per engine, in order: status, message and the figures of the last cycle.
     """
-    row_of = partial(_run_row, settings=Settings(duration, **settings).checked())
+    row_of = partial(_run_row, settings=Settings.of(duration, settings))
     return batch_table(
         partial(rows_of, row_of), engines, RUN_UNITS, kernel_for, executor, workers, chunk
     )

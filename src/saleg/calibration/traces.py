@@ -13,7 +13,7 @@ import numpy as np
 
 from saleg.errors import SalegError
 from saleg.files.reading import as_path, read_text
-from saleg.files.units import UnitError, to_si
+from saleg.files.units import UnitError, head_of, to_si
 from saleg.quantities import as_float
 
 #: What a trace may hold, with its SI unit; columns of the history of a run.
@@ -183,10 +183,10 @@ def _columns(text: str) -> dict[str, np.ndarray]:
 
 def _head(cell: str) -> tuple[str | None, str]:
     """Name in a trace and unit of a column; no name for others."""
-    words, _, unit = cell.partition("[")
+    words, unit = head_of(cell)
     words = re.sub(r"[\s_]+", " ", words).strip().lower()
     name = next((name for name, known in NAMES.items() if words in known), None)
-    return name, unit.rstrip().removesuffix("]")
+    return name, unit
 
 
 def _number(row: list[str], place: int, line: int, mark: str) -> float:

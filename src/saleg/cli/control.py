@@ -68,7 +68,8 @@ def add_to(commands: Any) -> None:
         dest="motor",
         help="the motor does not come back (misfire)",
     )
-    add("--demand", type=expanded, metavar="FILE.csv", help="times [s] and powers [W], two columns")
+    text = "times and powers, two columns; SI unless their heads say otherwise, as power [kW] does"
+    add("--demand", type=expanded, metavar="FILE.csv", help=text)
     add("--out", type=expanded, metavar="DIR", help="write pictures and tables to a new folder")
     add("--animate", type=expanded, metavar="FILE", help="write the last cycle as .gif or .html")
     add("--force", action="store_true", help="replace DIR and FILE of an earlier experiment")

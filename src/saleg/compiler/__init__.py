@@ -7,17 +7,33 @@ Three facts to begin with:
 - **All parts share one namespace.** A name defined in two of them is refused, and what a law brings
   along (helpers, constants) gets a prefix of its slot.
 - **This is the order:** what laws are shown (``laws/arguments``), what of the kernel needs no law,
-  the slots filled with laws (in place of ``kernel/slots``), then the kernel: ``needs`` and
-  ``adaptive``, written for these laws, ``rhs``, ``step``, ``events``, ... ``integrate``.
+  the slots (in place of ``kernel/slots``), then the kernel: ``needs`` and ``adaptive``, written for
+  the laws, ``rhs``, ``step``, ``events``, ... ``integrate``.
 
-So a composed module reads, much shortened::
+The integrator of one engine is two such modules. The kernel, in which the slots are declared, is
+lowered once for all laws that need the same of the state
+(:mod:`~saleg.compiler.shared_kernel`). Much shortened, it reads::
+
+    import numba
+    inline = numba.njit(
+    cached = inline
+    # --- laws/arguments.py
+    class Gas(NamedTuple):
+    # --- kernel/layout.py
+    heat_release_burn_rate = DECLARED("heat_release_burn_rate", globals())
+    springs_force = DECLARED("springs_force", globals())
+    # --- kernel/rhs.py
+    def rhs(P, E, C, t, y, dy, motored):
+    # --- kernel/integrate.py
+    def run_on(run):
+
+The laws fill the slots, and :mod:`~saleg.compiler.linking` links them into that kernel::
 
     import numba
     inline = numba.njit(
     cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)
     # --- laws/arguments.py
     class Gas(NamedTuple):
-    # --- kernel/layout.py
     def both_heat_release_burn_rate__wiebe_rate(u, a, b):
     def both_heat_release_burn_rate(self, u):
         return both_heat_release_burn_rate__wiebe_rate(u, self.a, self.b)
@@ -29,14 +45,12 @@ So a composed module reads, much shortened::
         return -2.0 * self.stiffness * motion.x
     def springs_force(P, motion):
         return engine_springs_force(P.springs, motion)
-    # --- kernel/rhs.py
-    def rhs(P, E, C, t, y, dy, motored):
-    # --- kernel/integrate.py
+    integrate = LINKED(globals())
     @cached
+    def run_on(run):
 
-The integrator of one engine is such a module in two halves: the kernel with its slots declared
-(:mod:`~saleg.compiler.shared_kernel`), lowered once, and the laws that
-:mod:`~saleg.compiler.linking` links into it.
+Engines side by side, and any where numba has changed, have both in one module: the laws stand where
+the slots are declared.
 
 ``P`` is the record of all numbers of all laws, so another number compiles nothing.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 
 from saleg.errors import ControllerError, InvalidController
 from saleg.files.reading import read_text
+from saleg.files.units import UNITS, UnitError, head_of, to_si
 from saleg.laws.usual import POWER, TIME
 from saleg.quantities import Problem, Quantities, problems, series
 
@@ -69,30 +71,61 @@ class Demand(Quantities):
 
     @classmethod
     def read(cls, path: str | Path) -> Demand:
-        """A demand from a CSV file of two columns, times [s] and powers [W].
+        """A demand from a CSV file of two columns, times and powers.
 
-        A first line of words is taken for a header.
+        A first line of words is their heads, each with its unit in brackets if it is not that of
+        SI, such as ``time [min],power [kW]``.
 
         Raises
         ------
         ControllerError
             If the file cannot be read.
         InvalidController
-            Naming the line that cannot be read.
+            Naming every line, and every unit, that cannot be read.
         """
-        lines = read_text(path, ControllerError).splitlines()
-        times, powers = [], []
-        for number, line in enumerate(lines, start=1):
-            row = line.split(",")
-            if not line.strip():
-                continue
-            try:
-                t, power = (float(value.strip().strip('"')) for value in row)
-            except ValueError:
-                if number > 1:
-                    problem = Problem(f"{path}, line {number}", line, "", "must be two numbers")
-                    raise InvalidController([problem]) from None
-                continue
-            times.append(t)
-            powers.append(power)
-        return cls.of(times, powers)
+        lines = enumerate(read_text(path, ControllerError).splitlines(), start=1)
+        table = [(number, _cells(line)) for number, line in lines if line.strip()]
+        wrong: list[Problem] = []
+        scales = [1.0, 1.0]
+        if table and not any(map(_is_number, table[0][1])):
+            number, heads = table.pop(0)
+            scales = _scales(f"{path}, line {number}", heads, wrong)
+        rows = []
+        for number, cells in table:
+            if len(cells) == 2 and all(map(_is_number, cells)):
+                rows.append([float(c) * scale for c, scale in zip(cells, scales, strict=True)])
+            else:
+                where = f"{path}, line {number}"
+                wrong.append(Problem(where, ",".join(cells), "", "must be two numbers"))
+        if wrong:
+            raise InvalidController(wrong)
+        return cls.of([row[0] for row in rows], [row[1] for row in rows])
+
+
+def _cells(line: str) -> list[str]:
+    return [cell.strip().strip('"') for cell in line.split(",")]
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _scales(where: str, heads: list[str], wrong: list[Problem]) -> list[float]:
+    """Factors from the units of two heads to SI; what cannot be read is noted."""
+    if len(heads) != 2:
+        wrong.append(Problem(where, ",".join(heads), "", "must be heads of times and powers"))
+        return [1.0, 1.0]
+    scales = []
+    for head, si_unit in zip(heads, ("s", "W"), strict=True):
+        try:
+            name, unit = head_of(head)
+            last = re.split(r"[\s_/]+", name)[-1]  # as in "P_kW"
+            scales.append(to_si(unit or last * (last in UNITS[si_unit]), si_unit)[0])
+        except UnitError as error:
+            wrong.append(Problem(where, head, "", str(error)))
+            scales.append(1.0)
+    return scales

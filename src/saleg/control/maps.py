@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saleg.batch.many import steady_states
-from saleg.checks import SERIES, TEXT, a, checked
+from saleg.checks import SOME, TEXT, a, checked
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
 from saleg.errors import InvalidController
@@ -82,7 +82,7 @@ def _stable(table: pd.DataFrame) -> pd.Series:
     return (table.status == str(Status.STEADY)) & table.stable
 
 
-@checked(engine=a(Engine), path=TEXT, values=SERIES)
+@checked(engine=a(Engine), path=TEXT, values=SOME)
 def operating_map(
     engine: Engine,
     path: str,
@@ -184,7 +184,7 @@ def _to_the_end(
     return OperatingMap(path, table.iloc[: lost + 1])
 
 
-@checked(engine=a(Engine), temperatures=SERIES, ratios=SERIES)
+@checked(engine=a(Engine), temperatures=SOME, ratios=SOME)
 def operating_grid(
     engine: Engine,
     temperatures: Sequence[float],

@@ -91,7 +91,7 @@ def operating_line(engine: Engine, powers: Sequence[float]) -> OperatingLine:
     )
     goal = rated.output_values[rated.outputs.index("dead_centre")]
     points, begin = {}, fixed
-    for power in sorted(map(float, powers), reverse=True):
+    for power in sorted({float(power) for power in np.atleast_1d(powers)}, reverse=True):
         points[power] = _point(begin, goal, power)
         begin = points[power].engine
     found = [points[power] for power in sorted(points)]

@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 
 from saleg.engine.controller import Controller
+from saleg.errors import shown
 from saleg.kernel import layout
 from saleg.kernel.decide import with_motoring
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import CONTROL_SLOTS, StateLogic
+from saleg.quantities import is_number
 from saleg.simulation.course import Course
 from saleg.simulation.outcome import outcome_of, settled
 from saleg.simulation.signals import measured
@@ -33,16 +35,55 @@ PARTS = {
 }
 
 
+#: Commands no actuator refuses.
+USUAL = Commands(*(0.0 for _ in Commands._fields))._replace(intake_temperature=300.0)
+
+
+def refused_commands(commands: Commands, controller: Controller) -> list[str]:
+    """Names of all commands that are no numbers or that the actuators refuse.
+
+    Actuators name one of them at a time: it gives way to a usual one until none is refused.
+    """
+    wrong = [name for name, value in commands._asdict().items() if not is_plain(value)]
+    rest = commands._replace(**{name: getattr(USUAL, name) for name in wrong})
+    while True:
+        fault = float(controller.actuators.refused(Commands(*map(float, rest))))
+        name = Commands._fields[int(fault) - 1] if _is_of_command(fault) else ""
+        if not name or name in wrong:
+            return [name for name in Commands._fields if name in wrong]
+        wrong.append(name)
+        rest = rest._replace(**{name: getattr(USUAL, name)})
+
+
 def fault_message(fault: float, commands: Commands, controller: Controller) -> str:
-    """Text that names a command out of its limits, or actuators that do not work.
+    """Text that names all commands out of their limits, or actuators that do not work.
 
     `fault` is what the actuators made of the commands: the number of one of them.
     """
     law = type(controller.actuators).__name__
-    if not (math.isfinite(fault) and 1 <= fault <= len(commands)):
+    if not _is_of_command(fault):
         return f"the actuators {law} give what is not finite or no number of a command ({fault})"
-    name, value = Commands._fields[int(fault) - 1], commands[int(fault) - 1]
-    return f"{name} = {value!r} is not finite or beyond the limits of {law}"
+    name = Commands._fields[int(fault) - 1]
+    return refusal(commands, controller) or f"{name}: refused by the actuators {law}"
+
+
+def refusal(commands: Commands, controller: Controller) -> str:
+    """Text that names all commands that are no numbers or that actuators refuse; empty if none."""
+    wrong = refused_commands(commands, controller)
+    named = ", ".join(f"{name} = {shown(getattr(commands, name))}" for name in wrong)
+    wanted = "a finite number" if len(wrong) == 1 else "finite numbers"
+    law = type(controller.actuators).__name__
+    return f"{named}: must be {wanted} within the limits of {law}" if wrong else ""
+
+
+def is_plain(value: Any) -> bool:
+    """Whether a command can be passed on: a number, or a flag."""
+    return is_number(value) or isinstance(value, (bool, np.bool_))
+
+
+def _is_of_command(fault: float) -> bool:
+    """Whether a fault is the number of a command."""
+    return math.isfinite(fault) and 1 <= fault <= len(Commands._fields)
 
 
 def blamed(controller: Controller, memory: np.ndarray, signals: Signals, fault: float = 0.0) -> str:

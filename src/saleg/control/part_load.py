@@ -6,19 +6,19 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.batch.many import steady_states
-from saleg.checks import SERIES, a, checked
+from saleg.batch.many import STABILITY_UNITS, steady_states
+from saleg.checks import SOME, a, checked
 from saleg.control.maps import fuel_map, intake_map
 from saleg.engine import Engine
 from saleg.engine.paths import unit_of
-from saleg.errors import InvalidController
+from saleg.errors import InvalidController, UnknownPath, WrongArguments, nearest
 from saleg.files.atomic import new_file
 from saleg.files.tables import labelled, write_table
-from saleg.quantities import Problem
+from saleg.quantities import Problem, as_float, is_number
 from saleg.status import Status
 
 if TYPE_CHECKING:
@@ -32,6 +32,8 @@ MARGINS: dict[str, tuple[float, float]] = {
     "largest_multiplier": (0.0, 0.9),
     "compression_ratio": (12.2, 25.0),
 }
+#: Columns of the table that hold no numbers.
+WORDS = ("status", "message", "method", "stable", "kind")
 #: Powers of a map unless told otherwise; every how many-th value of the maps that end where orbits
 #: end stands in its grid.
 POWERS, EVERY = 25, 2
@@ -80,7 +82,7 @@ class PartLoadMap:
 @checked(
     engine=a(Engine),
     values=a(Mapping).optional,
-    powers=SERIES.optional,
+    powers=SOME.optional,
     margins=a(Mapping),
 )
 def part_load_map(
@@ -117,9 +119,12 @@ def part_load_map(
 
     Raises
     ------
+    WrongArguments
+        Naming all quantities, values and margins that make no sense.
     InvalidController
         If fewer than two powers can be had within the margins.
     """
+    _check(engine, values, margins)
     grid = dict(values) if values is not None else _to_the_ends(engine, executor)
     points = np.array(list(itertools.product(*grid.values())), dtype=float)
     shape = tuple(len(along) for along in grid.values())
@@ -140,6 +145,36 @@ def part_load_map(
         wrong = f"{len(table)} steady states within the margins"
         raise InvalidController([Problem("values", wrong, "", "a map needs at least two")])
     return PartLoadMap(tuple(grid), table, states)
+
+
+def _check(engine: Engine, values: Mapping[str, Any] | None, margins: Mapping[str, Any]) -> None:
+    """Refuse quantities that are no numbers of the engine, and margins of no column."""
+    wrong = []
+    if values is not None and not values:
+        wrong.append(Problem("values", values, "", "must have at least one quantity"))
+    for path, along in (values or {}).items():
+        name = f"values[{path!r}]"
+        try:
+            if not is_number(engine.get(path)):
+                wrong.append(Problem(name, along, "", f"'{path}' is no number of this engine"))
+        except UnknownPath as error:
+            wrong.append(Problem(name, along, "", str(error)))
+        if SOME.read(along) is None:
+            wrong.append(Problem(name, along, "", SOME.wanted + SOME.told(along)))
+    known = [*(name for name in STABILITY_UNITS if name not in WORDS), *(values or {})]
+    for column, ends in margins.items():
+        name = f"margins[{column!r}]"
+        if column not in known:
+            text = f"no column '{column}'{nearest(column, known)}"
+            wrong.append(Problem(name, ends, "", text))
+        try:
+            low, high = map(as_float, ends)
+        except (TypeError, ValueError):
+            low = high = None
+        if low is None or high is None or not low <= high:
+            wrong.append(Problem(name, ends, "", "must be a least and a greatest value"))
+    if wrong:
+        raise WrongArguments(wrong, "arguments of part_load_map()")
 
 
 def _to_the_ends(engine: Engine, executor: Executor | None) -> dict[str, list[float]]:

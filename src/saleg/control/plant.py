@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.control.outcome import blamed, controlled_outcome, fault_message
+from saleg.control.outcome import blamed, controlled_outcome, fault_message, is_plain, refusal
 from saleg.engine import Engine, check_controller, check_engine, warn_of_unusual
 from saleg.engine.controller import Controller
 from saleg.errors import ControllerError
@@ -151,10 +151,8 @@ class Plant:
         """
         if not isinstance(commands, Commands):
             raise ControllerError(f"must be Commands, not {type(commands).__name__}")
-        plain = commands._asdict().items()
-        wrong = [n for n, value in plain if not (is_number(value) or isinstance(value, bool))]
-        if wrong:
-            raise ControllerError(f"{', '.join(wrong)}: must be a number")
+        if not all(map(is_plain, commands)):
+            raise ControllerError(refusal(commands, self._course.controller or Controller()))
         commands = Commands(*(float(value) for value in commands))
         give(self._course, commands, first=not self._commanded)
         self._commanded, self._latest = True, commands
@@ -261,7 +259,7 @@ def course_of(
     engine: Engine, controller: Controller, duration: float, controlled: int, settings: Any
 ) -> Course:
     """A run about to begin, under a controller."""
-    known = Settings(duration, **{"stall_stroke": 0.0, **settings}).checked()
+    known = Settings.of(duration, {"stall_stroke": 0.0, **settings})
     check_engine(engine)
     check_controller(controller)
     engine.check_laws()

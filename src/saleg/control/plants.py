@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from saleg.checks import as_array
 from saleg.compiler import plain, search
 from saleg.compiler.compiled_engine import compiled_engine
 from saleg.compiler.text import INTEGRATOR_WITH_PLANTS, PLANTS
-from saleg.control.outcome import fault_message
+from saleg.control.outcome import fault_message, is_plain, refusal
 from saleg.control.plant import course_of
-from saleg.engine import Engine
+from saleg.engine import Engine, engine_problems
 from saleg.engine.controller import Controller
-from saleg.errors import ControllerError
+from saleg.errors import ControllerError, shown
 from saleg.kernel import layout
 from saleg.kernel.plants import Fleet
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.actuators import Actuators
 from saleg.laws.control.base import ActuatorLaw
 from saleg.simulation.course import Course
-from saleg.simulation.settings import SettingsError
+from saleg.simulation.settings import Settings, SettingsError, refuse
 from saleg.simulation.signals import measured
+
+#: Engines whose refused commands are named one by one.
+SHOWN = 5
 
 
 class Plants:
@@ -67,10 +72,11 @@ class Plants:
         actuators: ActuatorLaw | None = None,
         **settings: Any,
     ):
-        if not engines:
-            raise SettingsError("engines: there must be at least one")
         if plain.is_wanted():
             raise SettingsError("Plants are compiled code only: take a Plant for each engine")
+        wrong = Settings.wrong(duration, {"stall_stroke": 0.0, **settings})
+        refuse("Plants", engine_problems(engines), wrong)
+        engines = list(engines)
         self._controller = Controller(actuators=actuators or Actuators())
         self._duration, self._settings = duration, settings
         begun = {id(engine): self._begin(engine) for engine in engines}
@@ -152,28 +158,54 @@ class Plants:
         Raises
         ------
         ControllerError
-            If a command is not finite or beyond the limits of its actuator, naming the first
-            engine; all then stay where they are.
+            If commands are no numbers, one for each engine, or beyond the limits of their
+            actuators, naming all of them and the engines; all then stay where they are.
         SettingsError
             If an engine that is to go on is over.
         """
         running = self.running
         chosen = running if rows is None else np.asarray(rows, bool)
+        if chosen.shape != running.shape:
+            raise SettingsError(f"rows: must be of shape {running.shape}, not {chosen.shape}")
         if not chosen.any() or (chosen & ~running).any():
             raise SettingsError("a run is over: there is nothing to advance to")
-        for name, values in zip(Commands._fields, commands, strict=True):
+        self._check(commands)
+        for name, values in commands._asdict().items():
             self._fleet.commands[name] = values
         wanted = np.flatnonzero(chosen)
         work = self._course.arguments
         refused = self._kernel.call("advance_fleet", self._fleet, wanted, work, self._address)
         if refused >= 0:
-            raise ControllerError(self._refusal(int(refused)))
+            raise ControllerError(self._refusal(int(refused), wanted))
 
-    def _refusal(self, row: int) -> str:
-        """Why the commands of an engine are refused."""
-        commands = Commands(*self._fleet.commands[row].tolist())
-        fault = float(self._controller.actuators.refused(commands))
-        return f"engine {row}: {fault_message(fault, commands, self._controller)}"
+    def _check(self, commands: Commands) -> None:
+        """Refuse what is no numbers, one or one for each engine."""
+        if not isinstance(commands, Commands):
+            raise ControllerError(f"must be Commands, not {type(commands).__name__}")
+        fits = ((), (len(self),))
+        wrong = []
+        for name, value in commands._asdict().items():
+            if not is_plain(value) and getattr(as_array(value), "shape", None) not in fits:
+                wrong.append(f"{name} = {shown(value)}")
+        if wrong:
+            wanted = f"must be numbers, or arrays of shape ({len(self)},)"
+            raise ControllerError(f"{', '.join(wrong)}: {wanted}")
+
+    def _refusal(self, first: int, rows: np.ndarray) -> str:
+        """Why the commands of some engines are refused."""
+        refused = {}
+        for row in rows.tolist():
+            commands = Commands(*self._fleet.commands[row].tolist())
+            text = refusal(commands, self._controller)
+            if text:
+                refused[row] = text
+        if first not in refused:
+            commands = Commands(*self._fleet.commands[first].tolist())
+            fault = float(self._controller.actuators.refused(commands))
+            refused[first] = fault_message(fault, commands, self._controller)
+        lines = [f"engine {row}: {text}" for row, text in itertools.islice(refused.items(), SHOWN)]
+        more = len(refused) - len(lines)
+        return "\n".join([*lines, *([f"and {more} more engines"] if more else [])])
 
     def restart(self, row: int, engine: Engine) -> None:
         """Put an engine at its start in the place of another.

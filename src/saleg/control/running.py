@@ -18,7 +18,7 @@ from saleg.control.plant import InPython, Plant, commanded_by, course_of, give, 
 from saleg.control.sensors import Measurement, Sensors
 from saleg.engine import Engine, warn_of_unusual
 from saleg.engine.controller import Controller
-from saleg.errors import ControllerError, shown
+from saleg.errors import ControllerError, nearest, shown
 from saleg.kernel import layout
 from saleg.laws.arguments import Commands, Signals
 from saleg.laws.control.base import ActuatorLaw, ConverterLaw
@@ -215,7 +215,18 @@ def generator(signals: Signals, **changes: float) -> Commands:
     Returns
     -------
     Commands
+
+    Raises
+    ------
+    ControllerError
+        Naming the changes that are no commands.
     """
+    known = Commands._fields
+    unknown = [
+        f"no command '{name}'{nearest(name, known)}" for name in changes if name not in known
+    ]
+    if unknown:
+        raise ControllerError("\n".join([*unknown, f"there are {', '.join(known)}"]))
     plain = Commands(
         motoring=0.0,
         load_weight=signals.regulated_weight,

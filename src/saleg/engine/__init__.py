@@ -14,7 +14,7 @@ from saleg.engine.chambers import (
     Translator,
 )
 from saleg.engine.controller import Controller, check_controller
-from saleg.engine.engine import Engine, check_engine, warn_of_unusual
+from saleg.engine.engine import Engine, check_engine, engine_problems, warn_of_unusual
 
 __all__ = [
     "BounceChamber",
@@ -32,5 +32,6 @@ __all__ = [
     "Translator",
     "check_controller",
     "check_engine",
+    "engine_problems",
     "warn_of_unusual",
 ]

@@ -7,7 +7,7 @@ Everything is a frozen dataclass of numbers in SI units; nothing here computes. 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, is_dataclass
 from pathlib import Path
 from typing import Any
@@ -17,23 +17,21 @@ from saleg.engine import paths
 from saleg.engine.chambers import (
     Chamber,
     CombustionChamber,
-    Cylinder,
     Fuel,
     GasChamber,
     Intake,
     OpenEnd,
     Translator,
 )
+from saleg.engine.limits import is_within, limits_exceeded, paths_of, windows_too_wide
 from saleg.engine.start import CompressedCharge, Start
-from saleg.errors import InvalidEngine, SalegWarning
+from saleg.errors import InvalidEngine, LawError, SalegWarning
 from saleg.laws import (
-    Crankcase,
     FixedFrame,
     Law,
     LinearLoad,
     LinearSprings,
     NoScatter,
-    PortFlow,
     ViscousFriction,
 )
 from saleg.laws.base import (
@@ -46,7 +44,7 @@ from saleg.laws.base import (
     Springs,
 )
 from saleg.laws.contract import check_laws
-from saleg.quantities import Problem, fields_of, is_number, problems, unusual
+from saleg.quantities import Problem, Quantities, fields_of, problems, unusual
 
 
 @dataclass(frozen=True)
@@ -227,27 +225,31 @@ class Engine:
 
     def problems(self) -> list[Problem]:
         """Every wrong field of the engine; empty when it is valid."""
-        found = _slot_problems(self)
-        if found:
-            return found
-        return self._each_part(problems) + _geometry_problems(self)
+        found = _kind_problems(self)
+        wrong = paths_of(self, found)
+        by_themselves = self._each_part(problems)
+        found += [problem for problem in by_themselves if not is_within(problem.path, wrong)]
+        if all(isinstance(chamber, Chamber) for chamber in self.chambers):
+            found += limits_exceeded(self, found)
+        return found
 
     def unusual(self) -> list[Problem]:
         """Every number of a valid engine that is far from what has been built.
 
         Each names the usual range and, if one fits, the unit the number may have been given in.
         """
-        return self._each_part(unusual)
+        return self._each_part(unusual) + windows_too_wide(self)
 
     def _each_part(self, look: Callable[[Any, str], list[Problem]]) -> list[Problem]:
         """What is found in the parts, with their paths; chambers that are alike count once."""
         names = ["translator", *ENGINE_SLOTS, "start"]
         parts = [(name, getattr(self, name)) for name in names]
-        if self.is_mirrored:
+        if self.is_mirrored and isinstance(self.left, Chamber):
             parts.append(("", self.left))
         else:
             parts += [("left", self.left), ("right", self.right)]
-        return [problem for path, part in parts for problem in look(part, path)]
+        sound = [(path, part) for path, part in parts if isinstance(part, Quantities)]
+        return [problem for path, part in sound for problem in look(part, path)]
 
     def validate(self) -> None:
         """Raise one error naming every wrong field.
@@ -259,7 +261,7 @@ class Engine:
         """
         found = self.problems()
         if found:
-            raise InvalidEngine(found)
+            raise InvalidEngine(found + _law_problems(self))
 
     def check_laws(self) -> None:
         """Refuse laws that cannot be compiled, before any of them is called.
@@ -325,6 +327,23 @@ def check_engine(engine: Any) -> None:
     engine.validate()
 
 
+def engine_problems(engines: Any) -> list[Problem]:
+    """Every wrong field of the `engines` a call is handed, each with its place among them."""
+    if isinstance(engines, (str, bytes, Mapping)) or not isinstance(engines, Collection):
+        return [Problem("engines", engines, "-", "must be a list of engines")]
+    if not len(engines):
+        return [Problem("engines", engines, "-", "there must be at least one")]
+    found: list[Problem] = []
+    once = {id(engine): (n, engine) for n, engine in reversed(list(enumerate(engines)))}
+    for n, engine in sorted(once.values(), key=lambda item: item[0]):
+        where = f"engines[{n}]"
+        if isinstance(engine, Engine):
+            found += (item._replace(path=f"{where}.{item.path}") for item in engine.problems())
+        else:
+            found.append(Problem(where, engine, "-", "must be a saleg.Engine"))
+    return found
+
+
 def warn_of_unusual(engine: Engine, *, frames: int = 1, **others: Any) -> None:
     """Warn once of all numbers of a valid engine that are far from what has been built.
 
@@ -359,7 +378,7 @@ def _alike(one: Any, other: Any) -> bool:
 _CHAMBER_PARTS: dict[str, type] = {**CHAMBER_SLOTS, "intake": Intake, "fuel": Fuel}
 
 
-def _slot_problems(engine: Engine) -> list[Problem]:
+def _kind_problems(engine: Engine) -> list[Problem]:
     """Parts and laws that are not of the kind their place asks for."""
     found = []
     if not isinstance(engine.name, str):
@@ -373,6 +392,26 @@ def _slot_problems(engine: Engine) -> list[Problem]:
             if item.name in _CHAMBER_PARTS:
                 part, kind = getattr(chamber, item.name), _CHAMBER_PARTS[item.name]
                 found += _kind_problem(part, kind, f"{side}.{item.name}")
+    if all(isinstance(chamber, OpenEnd) for chamber in engine.chambers):
+        allowed = "must be a chamber that holds gas: left and right are both open ends (None)"
+        found += [Problem(side, getattr(engine, side), "-", allowed) for side in ("left", "right")]
+    return found
+
+
+def _law_problems(engine: Engine) -> list[Problem]:
+    """Laws of classes that cannot be compiled."""
+    found = []
+    for name in (*ENGINE_SLOTS, "left", "right"):
+        part = getattr(engine, name)
+        slots = {name: part}
+        if isinstance(part, Chamber):
+            slots = {f"{name}.{slot}": law for slot, law in part.laws.items()}
+        for path, law in slots.items():
+            if isinstance(law, Law):
+                try:
+                    check_laws([law])
+                except LawError as error:
+                    found.append(Problem(path, law, "-", str(error)))
     return found
 
 
@@ -380,109 +419,3 @@ def _kind_problem(value: Any, kind: type, path: str) -> list[Problem]:
     if isinstance(value, kind):
         return []
     return [Problem(path, value, "-", f"must be a {kind.__name__}")]
-
-
-def lengths_fit(engine: Engine) -> Any:
-    """Whether no lengths contradict each other; of an engine of columns, in each row."""
-    most = engine.left.half_stroke + engine.right.half_stroke
-    fit = True
-    for chamber in engine.chambers:
-        gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
-        fit = fit & (gap < chamber.half_stroke) & (gap < port) & (port < most)
-    for _, _, good, _, _ in (*_limits_of_flow(engine, most), *_limits_of_backs(engine)):
-        fit = fit & good
-    return fit
-
-
-def _geometry_problems(engine: Engine) -> list[Problem]:
-    """Lengths that contradict each other."""
-    found = []
-    lengths = [chamber.half_stroke for chamber in engine.chambers]
-    if not all(is_number(length) for length in lengths):
-        return []
-    most = sum(float(length) for length in lengths)
-    sides = ("",) if engine.is_mirrored else ("left.", "right.")
-    for side, chamber in zip(sides, engine.chambers, strict=False):
-        gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
-        if is_number(gap) and gap >= chamber.half_stroke:
-            allowed = f"must be < half_stroke ({chamber.half_stroke:g} m)"
-            found.append(Problem(side + "head_gap", gap, "m", allowed))
-        if is_number(port) and is_number(gap) and not gap < port < most:
-            allowed = f"must be > head_gap ({gap:g} m) and < the maximum stroke ({most:g} m)"
-            found.append(Problem(side + "port_closing", port, "m", allowed))
-    if not found and all(_has_numbers(chamber) for chamber in engine.chambers):
-        limits = (
-            *_limits_of_flow(engine, most),
-            *_limits_of_backs(engine),
-            *_limits_of_composition(engine),
-        )
-        for number, path, good, unit, allowed in limits:
-            if not good and number < len(sides):
-                path = sides[number] + path
-                found.append(Problem(path, paths.get(engine, path), unit, allowed))
-    return found
-
-
-def _has_numbers(chamber: Chamber) -> bool:
-    """Whether all that ports, crankcase and the back of the piston are made of are numbers."""
-    parts = [
-        getattr(chamber, slot) for slot in ("gas_exchange", "supply") if hasattr(chamber, slot)
-    ]
-    kinds: list[Any] = [type(part) for part in parts]
-    numbers = [
-        getattr(part, item.name)
-        for part, kind in zip(parts, kinds, strict=True)
-        for item in fields_of(kind)
-    ]
-    if isinstance(chamber, GasChamber):
-        numbers += [chamber.back_area, chamber.back_pressure]
-    return all(map(is_number, numbers))
-
-
-def _limits_of_backs(engine: Engine) -> Iterator[tuple[int, str, Any, str, str]]:
-    """Limits of pressures behind the pistons, as :func:`_limits_of_flow` has them."""
-    for side, chamber in enumerate(engine.chambers):
-        opposite = engine.chambers[1 - side]
-        if isinstance(chamber, OpenEnd):
-            allowed = "must have a chamber with gas opposite"
-            yield side, "pressure", isinstance(opposite, GasChamber), "Pa", allowed
-        elif isinstance(opposite, OpenEnd):
-            allowed = "must be 0 opposite an open end, whose pressure acts behind the piston"
-            kept = chamber.back_pressure == 0.0  # type: ignore[attr-defined]
-            yield side, "back_pressure", kept, "Pa", allowed
-        else:
-            area, pressure = chamber.back_area, chamber.back_pressure  # type: ignore[attr-defined]
-            kept = (area > 0.0) | (pressure == 0.0)
-            yield side, "back_area", kept, "m^2", "must be > 0 with a back_pressure"
-
-
-def _limits_of_composition(engine: Engine) -> Iterator[tuple[int, str, Any, str, str]]:
-    """Limits of gases that follow the composition, as :func:`_limits_of_flow` has them."""
-    for side, chamber in enumerate(engine.chambers):
-        gas = getattr(chamber, "gas_properties", None)
-        if gas is not None and gas.follows_composition:
-            flows = any("contents" in law.states for law in chamber.laws.values() if law != gas)
-            allowed = (
-                "must be one gas, such as MixtureGas, in a chamber that gas flows or leaks into"
-            )
-            yield side, "gas_properties", not flows, "-", allowed
-
-
-def _limits_of_flow(engine: Engine, most: Any) -> Iterator[tuple[int, str, Any, str, str]]:
-    """Limits of ports and crankcases: side, path, whether it is kept, unit and what is allowed."""
-    for side, chamber in enumerate(engine.chambers):
-        if not isinstance(chamber, Cylinder):
-            continue
-        ports, supply = chamber.gas_exchange, chamber.supply
-        if isinstance(ports, PortFlow):
-            room = most - chamber.port_closing
-            allowed = "must be less than the way from port_closing to the maximum stroke"
-            kept = ports.intake_delay < room
-            yield side, "gas_exchange.intake_delay", kept, "m", allowed
-        if isinstance(supply, Crankcase):
-            allowed = "must be more than the piston displaces on its way from the midpoint"
-            kept = supply.volume(most - chamber.half_stroke) > 0.0
-            yield side, "supply.volume_at_midpoint", kept, "m^3", allowed
-            allowed = "must be a PortFlow, or another law by which gas flows, with a crankcase"
-            flows = "contents" in ports.states
-            yield side, "gas_exchange", flows, "-", allowed

@@ -85,10 +85,11 @@ def replace(engine: Tree, changes: Mapping[str, Any]) -> Tree:
     Raises
     ------
     UnknownPath
-        With the nearest existing names.
+        With the nearest existing names, and what is wrong with the values of the other paths.
     PathsClash
         If two paths lead to one place.
     """
+    given: Any = engine
     unknown = []
     named: dict[tuple[str, ...], str] = {}
     # Whole parts first, so that a law and one of its numbers can be changed in one call.
@@ -101,8 +102,14 @@ def replace(engine: Tree, changes: Mapping[str, Any]) -> Tree:
         for target in found:
             engine = with_value(engine, target, changes[path])
     if unknown:
-        raise UnknownPath("\n".join(unknown))
+        raise UnknownPath("\n".join([*unknown, *_worse(given, engine)]))
     return engine
+
+
+def _worse(before: Any, engine: Any) -> list[str]:
+    """What is wrong with an engine that was not wrong before some changes."""
+    known = {str(problem) for problem in before.problems()}
+    return [text for text in map(str, engine.problems()) if text not in known]
 
 
 def claimed(named: dict[tuple[str, ...], str], engine: Any, path: str) -> list[tuple[str, ...]]:

@@ -200,6 +200,9 @@ def contents(chamber: Any, displacement: float, burning: bool = False) -> Conten
     exponent = COMPRESSION_EXPONENT if _has_ports(chamber) else chamber.curve_exponent
     pressure = full.pressure * (1.0 if is_open else squeeze**exponent)
     lit = burning and not is_open
+    injection = chamber.injection
+    if injection.is_direct and not (lit or (not is_open and height <= injection.place)):
+        mass, fuel = mass - fuel, 0.0
     return Contents(is_open, lit, not is_open and not lit, pressure, mass, fuel, air, burnt)
 
 
@@ -233,7 +236,7 @@ def adiabatic_rise(chamber: Any, squeeze: float) -> float:
 
 
 def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
-    """Mass, fuel, air and burnt gas of the charge of a cylinder that runs steadily.
+    """Mass, fuel, air and burnt gas of the charge of a cylinder that runs steadily, all injected.
 
     Parameters
     ----------
@@ -252,7 +255,11 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
     burnt_per_fuel = (
         (1.0 + ratio) * burning_share(cylinder) * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
     )
-    fuel = mass / (1.0 + ratio / phi + burnt_per_fuel)
+    if cylinder.injection.is_direct:  # once the ports have closed on the rest
+        fuel = mass / (ratio / phi + burnt_per_fuel)
+        mass = mass + fuel
+    else:
+        fuel = mass / (1.0 + ratio / phi + burnt_per_fuel)
     return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
 
 

@@ -29,7 +29,15 @@ from saleg.engine.start import Start
 from saleg.errors import EngineFileError, InvalidEngine, SalegError, nearest, shown
 from saleg.files.entry_points import offered
 from saleg.files.reading import read_text
-from saleg.laws import CompleteCombustion, FixedFrame, FixedWall, NoLeak, NoScatter, Plenum
+from saleg.laws import (
+    CompleteCombustion,
+    FixedFrame,
+    FixedWall,
+    NoLeak,
+    NoScatter,
+    Plenum,
+    PortMixing,
+)
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS, FlowExchange
 from saleg.quantities import is_number
 
@@ -38,7 +46,15 @@ SLOTS: dict[str, type] = {**CHAMBER_SLOTS, **ENGINE_SLOTS, "start": Start}
 #: Classes that laws derive from, and no laws themselves.
 BASES = (*SLOTS.values(), FlowExchange)
 #: Laws a file does not name: what stands in their slots if nothing is said.
-UNSAID = (NoLeak, FixedWall, Plenum, CompleteCombustion, FixedFrame, NoScatter)
+UNSAID = (
+    NoLeak,
+    FixedWall,
+    Plenum,
+    CompleteCombustion,
+    FixedFrame,
+    NoScatter,
+    PortMixing,
+)
 #: Numbers that came later: a file names them only where they are not the default, so that folders
 #: of sweeps begun before still know their engine.
 LATER = ("back_area", "back_pressure", "burnt_shares")

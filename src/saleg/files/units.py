@@ -49,6 +49,7 @@ _SPELLINGS = (
     ("·", " "),
     ("*", " "),
 )
+_HEAD = re.compile(r"\s*(.*?)\s*[\[(]([^\[\]()]*)[\])]\s*")
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 
 
@@ -81,6 +82,18 @@ def to_si(unit: str, si_unit: str) -> tuple[float, float]:
     raise UnitError(
         f"'{unit}' is no unit here{nearest(plain, there)}; there are {', '.join(there)}"
     )
+
+
+def head_of(cell: str) -> tuple[str, str]:
+    """Name and unit of the head of a column, the unit in brackets of either kind.
+
+    Examples
+    --------
+    >>> head_of("time [ms]"), head_of("power (kW)"), head_of("power")
+    (('time', 'ms'), ('power', 'kW'), ('power', ''))
+    """
+    found = _HEAD.fullmatch(cell)
+    return (found[1], found[2].strip()) if found else (cell.strip(), "")
 
 
 def number_in_si(text: str, si_unit: str) -> float | None:

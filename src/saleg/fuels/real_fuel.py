@@ -78,7 +78,9 @@ class RealFuel:
         """The fuel of a cylinder."""
         return Fuel(self.lower_heating_value, self.air_fuel_ratio)
 
-    def charge(self, equivalence_ratio: float, burnt: float = 0.0) -> MixtureGas:
+    def charge(
+        self, equivalence_ratio: float, burnt: float = 0.0, *, direct: bool = False
+    ) -> MixtureGas:
         """Gas of fuel and air, and of what a charge before it has burnt to.
 
         Parameters
@@ -87,6 +89,8 @@ class RealFuel:
             Of the fresh charge, and of the one burnt [-].
         burnt : float
             Share of burnt gas by mass [-]: 0 for a fresh charge, 1 for nothing but burnt gas.
+        direct : bool
+            Whether the fuel is injected later: the fresh gas is air then.
 
         Returns
         -------
@@ -106,18 +110,22 @@ class RealFuel:
             wrong.append(f"burnt = {shown(burnt)}: must be a number >= 0 and <= 1")
         if wrong or ratio is None or share is None:
             raise FuelError("\n".join(wrong))
-        fresh, gone = self.fresh(ratio), self.burnt(ratio)
+        fresh, gone = self.fresh(0.0 if direct else ratio), self.burnt(ratio)
         return gas_of(
             added(times((1.0 - share) / mass_of(fresh), fresh), times(share / mass_of(gone), gone))
         )
 
-    def burning_gas(self, equivalence_ratio: float, burnt: float = 0.0) -> BurningGas:
+    def burning_gas(
+        self, equivalence_ratio: float, burnt: float = 0.0, *, direct: bool = False
+    ) -> BurningGas:
         """Gas of this fuel, air and what they burn to, whose composition follows the combustion.
 
         Parameters
         ----------
         equivalence_ratio, burnt : float
             Of the charge a run starts with, as of :meth:`charge` [-].
+        direct : bool
+            Whether the fuel is injected later.
 
         Returns
         -------
@@ -129,7 +137,7 @@ class RealFuel:
         FuelError
             If a number is out of range.
         """
-        start = self.charge(equivalence_ratio, burnt)
+        start = self.charge(equivalence_ratio, burnt, direct=direct)
         fuel, air, burnt_gas = map(gas_of, (self.moles, self._air(1.0), self.burnt(1.0)))
         return BurningGas(
             gas_constant=start.gas_constant,

@@ -32,6 +32,7 @@ from saleg.laws.base import (
     HeatRelease,
     HeatTransfer,
     Ignition,
+    Injection,
     Law,
     Leak,
     Misfires,
@@ -63,6 +64,7 @@ from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad
 from saleg.laws.control.motor import PhaseLockedMotor, ResonanceSearch, SteadyMotor
 from saleg.laws.control.position_sensor import PositionSensor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
+from saleg.laws.control.tracking import TrajectoryTracking
 from saleg.laws.earlier_names import accept_earlier_names
 from saleg.laws.frame import FixedFrame, MountedFrame
 from saleg.laws.friction import (
@@ -95,6 +97,7 @@ from saleg.laws.ignition import (
     SparkBeforeDeadCentre,
     TabulatedDelay,
 )
+from saleg.laws.injection import DirectInjection, PortMixing
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
 from saleg.laws.scatter import CyclicVariability, NoScatter
@@ -141,6 +144,7 @@ __all__ = [
     "Crankcase",
     "CyclicVariability",
     "DeadCentreRegulator",
+    "DirectInjection",
     "DoubleWiebe",
     "Drive",
     "EndStops",
@@ -167,6 +171,7 @@ __all__ = [
     "Ignition",
     "IgnitionAtDeadCentre",
     "IgnitionAtPressure",
+    "Injection",
     "Instant",
     "InstantExchange",
     "InstantRelease",
@@ -198,6 +203,7 @@ __all__ = [
     "Plenum",
     "PolytropicLoss",
     "PortFlow",
+    "PortMixing",
     "PositionSensor",
     "PositionSensorLaw",
     "PowerDemand",
@@ -225,6 +231,7 @@ __all__ = [
     "StrokeRegulator",
     "Supply",
     "TabulatedDelay",
+    "TrajectoryTracking",
     "Validity",
     "ViscousFriction",
     "Wall",

@@ -11,31 +11,32 @@ import json
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from keyword import iskeyword
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from saleg.engine import Engine, check_engine
+from saleg.checks import FLAG, NAMES, Check, a
+from saleg.engine import Engine
 from saleg.engine.paths import MAIN_INPUTS, get
-from saleg.errors import SalegError, UnknownPath, shown
+from saleg.errors import Problem, UnknownPath, WrongArguments
 from saleg.export.extras import extra
 from saleg.files.atomic import new_file
 from saleg.quantities import is_number
-from saleg.simulation.settings import Settings
+from saleg.simulation.settings import Settings, refuse
 
 #: What a unit is made of beside its engine.
 SCRIPT = '''"""An engine as a functional mock-up unit, by saleg."""
 
 from saleg.plugs.fmu_slave import EngineSlave, hold
 
+hold()  # before the class, which may have any name
+
 
 class {name}(EngineSlave):
     """The engine in engine.toml."""
-
-
-hold(globals())
 '''
 ENGINE_FILE = "engine.toml"
 SETTINGS_FILE = "saleg.json"
@@ -72,8 +73,8 @@ def to_fmu(
 
     Raises
     ------
-    InvalidEngine, SettingsError, UnknownPath
-        Naming what is wrong.
+    InvalidEngine, SettingsError, UnknownPath, WrongArguments
+        Naming all that is wrong with the engine, the settings, the parameters, or several of them.
     SalegError
         If pythonfmu is not installed, or the file cannot be written or is there already.
 
@@ -88,16 +89,9 @@ def to_fmu(
     with the reason in the log.
     """
     builder = extra("pythonfmu").FmuBuilder
-    check_engine(engine)
-    known = Settings(1.0, **settings).checked()
-    chosen = main_parameters(engine) if parameters is None else list(parameters)
-    for name in chosen:
-        if not is_number(get(engine, name)):
-            raise UnknownPath(f"'{name}' is no number of this engine")
-    path = Path(path)
+    chosen = _checked(engine, path, parameters, overwrite, settings)
+    known, path = Settings.of(1.0, settings), Path(path)
     model = path.stem
-    if path.suffix != ".fmu" or not model.isidentifier() or iskeyword(model):
-        raise SalegError(f"path = {shown(str(path))}: must be a name of letters and .fmu")
     kept = {"parameters": chosen, "settings": {name: getattr(known, name) for name in settings}}
     with tempfile.TemporaryDirectory() as folder, _imports_from(folder):
         script, built = Path(folder) / f"saleg_{model}.py", Path(folder) / "built.fmu"
@@ -109,6 +103,60 @@ def to_fmu(
         with new_file(path, overwrite) as made:
             shutil.copyfile(built, made)
     return path
+
+
+def _checked(
+    engine: Any, path: Any, parameters: Any, overwrite: Any, settings: Mapping[str, Any]
+) -> list[str]:
+    """Paths of the numbers that are offered; one error names all that is wrong."""
+    wrong = [
+        Problem(name, value, "", check.wanted)
+        for name, value, check in (
+            ("path", path, FILE),
+            ("parameters", parameters, NAMES.optional),
+            ("overwrite", overwrite, FLAG),
+        )
+        if check.read(value) is None and not (value is None and check.or_none)
+    ]
+    is_engine = isinstance(engine, Engine)
+    engines = engine.problems() if is_engine else [Problem("engine", engine, "", a(Engine).wanted)]
+    chosen: list[str] = []
+    unknown: list[Problem] = []
+    if not engines:
+        chosen = main_parameters(engine) if parameters is None else NAMES.read(parameters) or []
+        unknown = [*_no_numbers(engine, chosen)]
+    known = Settings.wrong(1.0, settings)
+    if unknown and not (wrong or engines or known):
+        raise UnknownPath("\n".join(item.allowed for item in unknown))
+    if wrong or unknown:
+        found = [*engines, *wrong, *unknown, *known]
+        raise WrongArguments(found, "arguments of to_fmu()")
+    refuse("to_fmu", engines, known)
+    return chosen
+
+
+def _no_numbers(engine: Engine, names: Sequence[str]) -> Iterator[Problem]:
+    """Parameters that are no numbers of an engine, or that stand twice."""
+    for n, name in enumerate(names):
+        text = f"'{name}' stands twice" if name in names[:n] else ""
+        try:
+            if not is_number(get(engine, name)):
+                text = f"'{name}' is no number of this engine"
+        except UnknownPath as error:
+            text = str(error)
+        if text:
+            yield Problem("parameters", name, "", text)
+
+
+def _named_file(value: Any) -> Any:
+    """A path whose name can be that of a model."""
+    path = Path(value) if isinstance(value, (str, PathLike)) else Path()
+    model = path.stem
+    good = path.suffix == ".fmu" and model.isidentifier() and not iskeyword(model)
+    return value if good else None
+
+
+FILE = Check(_named_file, "must be a name of letters and .fmu")
 
 
 def main_parameters(engine: Engine) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -63,13 +64,13 @@ NEVER = 1e9
 _held: list[dict[str, Any]] = []
 
 
-def hold(names: dict[str, Any]) -> None:
-    """Keep the names of a unit's module alive.
+def hold(*_: object) -> None:
+    """Keep the names of a unit's module, which calls this, alive; earlier units hand them over.
 
     For each instance the library of pythonfmu 0.7 runs the module and gives up one reference too
     many to its names: without one more they are gone before the second instance.
     """
-    _held.append(names)
+    _held.append(sys._getframe(1).f_globals)
 
 
 class EngineSlave(Fmi2Slave):  # type: ignore[misc]

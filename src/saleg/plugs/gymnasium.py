@@ -7,6 +7,7 @@ Once this is imported ``gymnasium.make("saleg/Engine-v0", engine=...)`` makes on
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -14,11 +15,12 @@ import numpy as np
 from saleg.control.plant import Plant
 from saleg.control.plants import Plants
 from saleg.engine import Engine
-from saleg.errors import SalegError
+from saleg.errors import Problem, SalegError
 from saleg.export.extras import extra
 from saleg.laws.arguments import Commands
 from saleg.laws.control.base import ActuatorLaw
-from saleg.plugs.task import SETTINGS, Randomise, Ranges, Reward, Task
+from saleg.plugs.task import Randomise, Ranges, Reward, Task, TaskError
+from saleg.quantities import is_whole
 
 try:
     from gymnasium import Env, register, spaces
@@ -84,10 +86,19 @@ class EngineEnv(Env[Any, Any]):
         actuators: ActuatorLaw | None = None,
         **settings: Any,
     ):
-        self.task = Task(engine, actions, observations, reward, strokes, duration, misfire_ends)
+        self.task = Task(
+            engine,
+            actions,
+            observations,
+            reward,
+            strokes,
+            duration,
+            misfire_ends,
+            randomise,
+            actuators,
+            {**KEPT, **settings},
+        )
         self.action_space, self.observation_space = _spaces(self.task)
-        self._randomise = randomise
-        self._given = {**SETTINGS, **KEPT, **settings, "actuators": actuators}
         self._plant: Plant | None = None
         self._strokes = 0
 
@@ -109,8 +120,10 @@ class EngineEnv(Env[Any, Any]):
         info : dict
         """
         super().reset(seed=seed)
-        engine = _engine_of(self.task, self._randomise, self.np_random)
-        self._plant, self._strokes = Plant(engine, self.task.duration, **self._given), 0
+        task = self.task
+        given = {**task.settings, "actuators": task.actuators}
+        self._plant = Plant(task.engine_of(self.np_random), task.duration, **given)
+        self._strokes = 0
         signals = self._plant.signals
         return self.task.observed(signals), {**signals._asdict(), "misfired": False}
 
@@ -141,7 +154,7 @@ class EngineEnv(Env[Any, Any]):
         stopped = not (plant.running or plant.time_is_up)
         ended = stopped or (misfired and self.task.misfire_ends)
         cut = not ended and (plant.time_is_up or self._strokes >= self.task.strokes)
-        reward = float(self.task.reward(signals, commands, ended))
+        reward = float(self.task.rewards(signals, commands, ended))
         info = {**signals._asdict(), "misfired": misfired}
         return self.task.observed(signals), reward, ended, cut, info
 
@@ -194,13 +207,23 @@ class EngineVectorEnv(VectorEnv[Any, Any, Any]):
         **settings: Any,
     ):
         self.metadata = {**METADATA, "autoreset_mode": AutoresetMode.NEXT_STEP}
-        self.task = Task(engine, actions, observations, reward, strokes, duration, misfire_ends)
+        self.task = Task(
+            engine,
+            actions,
+            observations,
+            reward,
+            strokes,
+            duration,
+            misfire_ends,
+            randomise,
+            actuators,
+            settings,
+            num_envs,
+        )
         self.num_envs = num_envs
         self.single_action_space, self.single_observation_space = _spaces(self.task)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
-        self._randomise = randomise
-        self._given = {**SETTINGS, **settings, "actuators": actuators}
         self._plants: Plants | None = None
         self._chances: list[np.random.Generator] = []
 
@@ -228,8 +251,10 @@ class EngineVectorEnv(VectorEnv[Any, Any, Any]):
             seeds = _seeds(seed, self.num_envs)
             super().reset(seed=seeds[0])
             self._chances = [seeding.np_random(one)[0] for one in seeds]
-        engines = [_engine_of(self.task, self._randomise, chance) for chance in self._chances]
-        self._plants = Plants(engines, self.task.duration, **self._given)
+        task = self.task
+        engines = [task.engine_of(chance) for chance in self._chances]
+        given = {**task.settings, "actuators": task.actuators}
+        self._plants = Plants(engines, task.duration, **given)
         self._strokes = np.zeros(self.num_envs, int)
         self._over = np.zeros(self.num_envs, bool)
         return self._seen(self._plants)
@@ -257,7 +282,7 @@ class EngineVectorEnv(VectorEnv[Any, Any, Any]):
             raise SalegError("the environment has not begun: call reset first")
         begins, goes = self._over, ~self._over
         for row in np.flatnonzero(begins):
-            plants.restart(int(row), _engine_of(self.task, self._randomise, self._chances[row]))
+            plants.restart(int(row), self.task.engine_of(self._chances[row]))
         commands = self.task.commands(plants.signals, actions)
         if goes.any():
             plants.advance(commands, goes)
@@ -266,7 +291,7 @@ class EngineVectorEnv(VectorEnv[Any, Any, Any]):
         ended = goes & (stopped | (plants.misfired & self.task.misfire_ends))
         cut = goes & ~ended & (plants.time_is_up | (self._strokes >= self.task.strokes))
         self._over = ended | cut
-        rewards = np.where(goes, self.task.reward(plants.signals, commands, ended), 0.0)
+        rewards = self.task.rewards(plants.signals, commands, ended, goes)
         observations, info = self._seen(plants)
         return observations, rewards, ended, cut, info
 
@@ -283,16 +308,14 @@ def _spaces(task: Task) -> tuple[Any, Any]:
     return actions, observations
 
 
-def _engine_of(task: Task, randomise: Randomise | None, chance: np.random.Generator) -> Engine:
-    """Engine of an episode."""
-    return task.engine if randomise is None else randomise(task.engine, chance)
-
-
-def _seeds(seed: int | list[int | None] | None, count: int) -> list[int | None]:
+def _seeds(seed: Any, count: int) -> list[int | None]:
     """Seed of each of some environments."""
-    if seed is None:
-        return [None] * count
-    return [seed + n for n in range(count)] if isinstance(seed, int) else list(seed)
+    if seed is None or is_whole(seed):
+        return [None if seed is None else int(seed) + n for n in range(count)]
+    if not isinstance(seed, Sequence) or len(seed) != count:
+        wanted = f"must be a whole number, or a list of {count}"
+        raise TaskError([Problem("seed", seed, "", wanted)])
+    return list(seed)
 
 
 register(

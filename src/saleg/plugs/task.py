@@ -9,12 +9,16 @@ from typing import Any
 
 import numpy as np
 
+from saleg.checks import FLAG, FUNCTION, as_array
 from saleg.control import generator
-from saleg.engine import Engine, check_engine
-from saleg.errors import SalegError, nearest, shown
+from saleg.control.outcome import USUAL, refused_commands
+from saleg.engine import Controller, Engine, check_engine
+from saleg.errors import Problem, WrongFields, nearest
+from saleg.laws import Actuators
 from saleg.laws.arguments import Commands, Signals
 from saleg.quantities import as_float, is_whole
 from saleg.simulation.initial_state import prepare
+from saleg.simulation.settings import Settings
 
 #: Least and greatest value of a quantity, by name.
 Ranges = Mapping[str, tuple[float, float]]
@@ -31,8 +35,10 @@ COMPRESSION_RATIO = 40.0
 SETTINGS = {"rtol": 1e-6, "stall_stroke": 0.01}
 
 
-class TaskError(SalegError, ValueError):
-    """Actions, observations or an episode that make no sense."""
+class TaskError(WrongFields):
+    """Actions, rewards, settings that make no sense; `problems` lists them all."""
+
+    whole = "environment"
 
 
 @dataclass(frozen=True)
@@ -89,6 +95,21 @@ class Task:
         Time at which it is cut off at the latest [s].
     misfire_ends : bool
         Whether an episode ends with a misfire.
+    randomise : callable, optional
+        Makes the engine of an episode from `engine` and a numpy random generator.
+    actuators : ActuatorLaw, optional
+        Limits and lags; :class:`saleg.laws.Actuators` unless given.
+    settings : mapping of str to object, optional
+        Further settings of :func:`saleg.simulate`; ``rtol`` is 1e-6 here.
+    num_envs : int
+        How many engines learn it at a time.
+
+    Raises
+    ------
+    InvalidEngine
+        Naming every wrong field of the engine.
+    TaskError
+        Naming everything else that makes no sense.
     """
 
     engine: Engine
@@ -98,29 +119,103 @@ class Task:
     strokes: int = 200
     duration: float = 60.0
     misfire_ends: bool = True
+    randomise: Randomise | None = None
+    actuators: Any = None
+    settings: Any = None
+    num_envs: int = 1
 
     def __post_init__(self) -> None:
         """Fill in what is not given, and refuse what makes no sense."""
         check_engine(self.engine)
         usual = usual_observations(self.engine)
-        actions = {"load_weight": LOAD_WEIGHT} if self.actions is None else self.actions
-        observations = usual if self.observations is None else self.observations
-        reward = self.reward or PowerAndStroke(0.5 * usual["power"][1], target_stroke(self.engine))
-        for name, value in (("actions", actions), ("observations", observations)):
-            known = Commands._fields if name == "actions" else Signals._fields
-            object.__setattr__(self, name, checked_ranges(name, value, known))
-        object.__setattr__(self, "reward", reward)
-        if not is_whole(self.strokes, 1, 2**31 - 1):
-            raise TaskError(f"strokes = {shown(self.strokes)}: must be a whole number >= 1")
+        wrong: list[Problem] = []
+        filled = {
+            "reward": self.reward
+            or PowerAndStroke(0.5 * usual["power"][1], target_stroke(self.engine)),
+            "actuators": Actuators() if self.actuators is None else self.actuators,
+            "settings": {**SETTINGS, **(self.settings or {})},
+        }
+        for name, default, known in (
+            ("actions", {"load_weight": LOAD_WEIGHT}, Commands._fields),
+            ("observations", usual, Signals._fields),
+        ):
+            given = getattr(self, name)
+            filled[name] = read_ranges(name, default if given is None else given, known, wrong)
+        for name, value in filled.items():
+            object.__setattr__(self, name, value)
+        wrong += self._problems()
+        if wrong:
+            raise TaskError(wrong)
 
-    def commands(self, signals: Signals, action: np.ndarray) -> Commands:
-        """Commands of an action, shape (k,), or of those of n engines, shape (n, k)."""
-        action = np.clip(np.asarray(action, float), -1.0, 1.0)
+    def _problems(self) -> list[Problem]:
+        """What makes no sense beside the ranges."""
+        wrong = [
+            Problem(name, getattr(self, name), "", wanted)
+            for name, sensible, wanted in (
+                ("reward", callable(self.reward), "must be a function"),
+                ("strokes", is_whole(self.strokes, 1, 2**31 - 1), "must be a whole number >= 1"),
+                ("misfire_ends", FLAG.read(self.misfire_ends) is not None, FLAG.wanted),
+                ("randomise", self.randomise is None or callable(self.randomise), FUNCTION.wanted),
+                ("num_envs", is_whole(self.num_envs, 1, 2**31 - 1), "must be a whole number >= 1"),
+            )
+            if not sensible
+        ]
+        wrong += Settings.wrong(self.duration, self.settings)
+        controller = Controller(actuators=self.actuators)
+        return wrong + (controller.problems() or self._beyond(controller))
+
+    def _beyond(self, controller: Controller) -> list[Problem]:
+        """Ranges of actions beyond the limits of the actuators."""
+        law = type(self.actuators).__name__
+        return [
+            Problem(f"actions[{name!r}]", pair, "", f"must be within the limits of {law}")
+            for name, pair in self.actions.items()
+            for ends in [[USUAL._replace(**{name: end}) for end in pair]]
+            if any(name in refused_commands(commands, controller) for commands in ends)
+        ]
+
+    def engine_of(self, chance: np.random.Generator) -> Engine:
+        """Engine of an episode."""
+        return self.engine if self.randomise is None else self.randomise(self.engine, chance)
+
+    def commands(self, signals: Signals, action: Any) -> Commands:
+        """Commands of an action, shape (k,), or of those of n engines, shape (n, k).
+
+        Raises
+        ------
+        TaskError
+            If it is no array of numbers of that shape.
+        """
+        found, shape = as_array(action), (*np.shape(signals.t), len(self.actions))
+        if found is None or found.shape != shape:
+            of = "" if found is None else f", not {found.shape}"
+            wanted = f"must be numbers of shape {shape}, the last for {', '.join(self.actions)}"
+            raise TaskError([Problem("action", action, "", wanted + of)])
+        scaled = np.clip(found, -1.0, 1.0)
         changes = {
-            name: low + 0.5 * (action[..., place] + 1.0) * (high - low)
+            name: low + 0.5 * (scaled[..., place] + 1.0) * (high - low)
             for place, (name, (low, high)) in enumerate(self.actions.items())
         }
         return generator(signals)._replace(**changes)
+
+    def rewards(self, signals: Signals, commands: Commands, ended: Any, goes: Any = True) -> Any:
+        """Rewards of a stroke, shape () or (n,); 0 for engines that did not go.
+
+        Raises
+        ------
+        TaskError
+            If the reward function gives anything but finite numbers.
+        """
+        given = self.reward(signals, commands, ended)
+        try:
+            found = np.broadcast_to(np.asarray(given, float), np.shape(signals.t))
+        except (TypeError, ValueError):
+            found = np.full(np.shape(signals.t), np.nan)
+        found = np.where(goes, found, 0.0)
+        if not np.isfinite(found).all():
+            wanted = f"must give finite numbers of shape {found.shape}"
+            raise TaskError([Problem("reward(...)", given, "", wanted)])
+        return found
 
     def observed(self, signals: Signals) -> np.ndarray:
         """Observation of signals, from -1 to +1; 0 for what is not known yet."""
@@ -166,27 +261,25 @@ def usual_observations(engine: Engine) -> dict[str, tuple[float, float]]:
     }
 
 
-def checked_ranges(
-    what: str, ranges: Any, known: tuple[str, ...]
+def read_ranges(
+    what: str, ranges: Any, known: tuple[str, ...], wrong: list[Problem]
 ) -> dict[str, tuple[float, float]]:
-    """Ranges as numbers, if they make sense.
-
-    Raises
-    ------
-    TaskError
-        Naming the first that does not.
-    """
+    """Ranges as numbers; those that make no sense are noted and left out."""
     if not isinstance(ranges, Mapping) or not ranges:
-        raise TaskError(f"{what} = {shown(ranges)}: must be names with a least and greatest value")
+        wrong.append(Problem(what, ranges, "", "must be names with a least and greatest value"))
+        return {}
     found = {}
     for name, pair in ranges.items():
-        if name not in known:
-            raise TaskError(f"{what}: no '{name}'{nearest(str(name), list(known))}")
         try:
             low, high = map(as_float, pair)
         except (TypeError, ValueError):
             low = high = None
-        if low is None or high is None or not -math.inf < low < high < math.inf:
-            raise TaskError(f"{what}['{name}'] = {shown(pair)}: must be least and greatest")
-        found[name] = (low, high)
+        if name not in known:
+            text = f"no '{name}' among the {what}{nearest(str(name), known)}"
+            wrong.append(Problem(f"{what}[{name!r}]", pair, "", text))
+        elif low is None or high is None or not -math.inf < low < high < math.inf:
+            text = "must be least and greatest, finite"
+            wrong.append(Problem(f"{what}[{name!r}]", pair, "", text))
+        else:
+            found[name] = (low, high)
     return found

@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.engine import Engine, check_engine
-from saleg.errors import InvalidEngine
+from saleg.engine import Engine, engine_problems
 from saleg.kernel import layout
 from saleg.kernel.plain_rhs import VELOCITY
 from saleg.laws import Frame
 from saleg.quantities import Problem, problems
 from saleg.reference.running_engine import RunningEngine
-from saleg.reference.runs import checked_settings, run_of
+from saleg.reference.runs import checked_settings, run_of, setting_problems
 from saleg.reference.segments import (
     Event,
     Rates,
@@ -35,7 +34,7 @@ from saleg.reference.segments import (
     watch,
 )
 from saleg.simulation.run import Run
-from saleg.simulation.settings import SettingsError
+from saleg.simulation.settings import refuse
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -89,10 +88,9 @@ def simulate_on_one_frame(
 
     Raises
     ------
-    InvalidEngine
-        Naming every wrong field.
-    SettingsError
-        If a setting makes no sense.
+    InvalidEngine, SettingsError
+        Naming everything that is wrong; :class:`saleg.errors.WrongArguments` where engines and
+        settings are.
 
     Examples
     --------
@@ -104,10 +102,9 @@ def simulate_on_one_frame(
     >>> bool(pair.frame["x"].abs().max() < 1e-9)
     True
     """
-    for engine in engines:
-        check_engine(engine)
-    _check(engines, frame)
-    rtol, duration = checked_settings(rtol=rtol, duration=duration)
+    given = {"rtol": rtol, "duration": duration}
+    refuse("simulate_on_one_frame", _problems(engines, frame), setting_problems(**given))
+    rtol, duration = checked_settings(**given)
     group = _Group.of(engines, frame, rtol)
     code = layout.END_OF_TIME
     try:
@@ -120,19 +117,16 @@ def simulate_on_one_frame(
     return Together(runs, group.table())
 
 
-def _check(engines: Sequence[Engine], frame: Any) -> None:
-    """Refuse what is no frame, and engines with a moving one of their own."""
-    if not engines:
-        raise SettingsError("engines: there must be at least one")
-    wrong = problems(frame, "frame") if isinstance(frame, Frame) else []
-    if not isinstance(frame, Frame):
-        wrong = [Problem("frame", frame, "-", "must be a Frame")]
-    for n, engine in enumerate(engines):
+def _problems(engines: Any, frame: Any) -> list[Problem]:
+    """What is wrong with engines and frame; none of them may have a moving one of its own."""
+    wrong = engine_problems(engines)
+    for n, engine in enumerate(engines if not wrong else ()):
         if "frame" in engine.frame.states:
             path = f"engines[{n}].frame"
             wrong.append(Problem(path, engine.frame, "-", "must be fixed: they share another"))
-    if wrong:
-        raise InvalidEngine(wrong)
+    if isinstance(frame, Frame):
+        return wrong + problems(frame, "frame")
+    return [*wrong, Problem("frame", frame, "-", "must be a Frame")]
 
 
 @dataclass

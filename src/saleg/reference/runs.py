@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.errors import shown
+from saleg.errors import Problem
 from saleg.kernel import layout
 from saleg.quantities import as_float
 from saleg.reference.running_engine import RunningEngine
@@ -15,7 +15,7 @@ from saleg.reference.segments import Tally, natural_speed
 from saleg.simulation.initial_state import State
 from saleg.simulation.outcome import outcome_of
 from saleg.simulation.run import Run
-from saleg.simulation.settings import SettingsError
+from saleg.simulation.settings import refuse
 
 _LIMITS = {"rtol": (1e-14, 1.0), "stall_stroke": (0.0, 1.0), "duration": (0.0, math.inf)}
 
@@ -26,16 +26,20 @@ def checked_settings(**given: Any) -> list[float]:
     Raises
     ------
     SettingsError
-        If one is no number in its range.
+        Naming all that are no numbers in their range.
     """
+    refuse("simulate", [], setting_problems(**given))
+    return [float(value) for value in given.values()]
+
+
+def setting_problems(**given: Any) -> list[Problem]:
+    """Those of tolerance, stall stroke and duration that are no numbers in their range."""
     found = []
     for name, value in given.items():
         number, (low, high) = as_float(value), _LIMITS[name]
         if number is None or not low <= number < high:
-            raise SettingsError(
-                f"{name} = {shown(value)}: must be a number >= {low:g} and < {high:g}"
-            )
-        found.append(number)
+            wanted = f"must be a number >= {low:g} and < {high:g}"
+            found.append(Problem(name, value, "", wanted))
     return found
 
 

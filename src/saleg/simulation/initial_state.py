@@ -21,6 +21,7 @@ from saleg.kernel.rhs import gas_of, rates_of_motion, refresh, rhs
 from saleg.laws.arguments import Motion, Stroke
 from saleg.laws.base import Alternator, Supply
 from saleg.simulation.faulty_law import Fault, asked
+from saleg.simulation.law_ranges import check_flows
 
 if TYPE_CHECKING:
     from saleg.engine import Chamber, Engine
@@ -73,13 +74,14 @@ def prepare(engine: Engine) -> State:
     Raises
     ------
     LawError
-        If a law cannot become part of a kernel, or gives no number.
+        If a law cannot become part of a kernel, gives no number, or an area below zero.
     StartError
         If a law overflows or divides by zero there.
     """
     engine.check_laws()
     check_methods(engine.laws.values())
     try:
+        check_flows(engine)
         return _prepare(engine)
     except SalegError:
         raise
@@ -291,6 +293,7 @@ def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
         c.air_fuel_ratio = chamber.fuel.air_fuel_ratio
         c.combustion_efficiency = chamber.combustion_efficiency
         c.late_ignition = chamber.late_ignition
+        c.injection_place = chamber.injection.place
 
 
 def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> None:
@@ -302,6 +305,10 @@ def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> Non
     if c.curve_exponent > 0.0:  # its charge is closed where it stands
         c.p_closing, c.V_closing = contents.pressure, c.area * clearance
         c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
+    if c.injection_place > 0.0:
+        closed = contents.armed and not contents.is_open
+        c.injection_due = float(closed and clearance > c.injection_place)
+        c.trapped_mass, c.trapped_temperature = contents.mass - contents.fuel, c.T_closing
     if c.by_flow and contents.is_open:  # at the state of the intake, as far as the piston is out
         share = clearance / c.port
         c.mass, c.fuel, c.air, c.burnt = (part * share for part in (c.mass, c.fuel, c.air, c.burnt))

@@ -69,6 +69,12 @@ class NetOutput:
     delivered: float
 
 
+class InvalidAuxiliaries(InvalidEngine):
+    """Auxiliaries with fields out of range; `problems` lists them all."""
+
+    whole = "auxiliaries"
+
+
 def net_output_of(
     engine: Engine, cycle: np.ndarray | None, auxiliaries: Auxiliaries | None = None
 ) -> NetOutput:
@@ -92,7 +98,7 @@ def net_output_of(
     else:
         wrong = [Problem("auxiliaries", beside, "-", "must be saleg.Auxiliaries")]
     if wrong:
-        raise InvalidEngine(wrong)
+        raise InvalidAuxiliaries(wrong)
     if cycle is None:
         nan = math.nan
         return NetOutput(nan, nan, nan, beside.consumers, nan, nan, nan)
@@ -115,9 +121,8 @@ def _delivered(engine: Engine, cycle: np.ndarray, side: int) -> float:
     chamber = engine.chambers[side]
     if not isinstance(chamber, Cylinder):
         return 0.0
-    flowed = float(cycle["supplied_mass"][:, side].sum())
-    if flowed > 0.0:
-        return flowed
+    if "contents" in chamber.gas_exchange.states:
+        return float(cycle["supplied_mass"][:, side].sum())
     out = (1.0 - 2.0 * side) * cycle["x_end"] + chamber.half_stroke
     if not (out > chamber.port_closing).any():
         return 0.0

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import Engine
+from saleg.engine import Cylinder, Engine, OpenEnd
 from saleg.kernel import layout
 from saleg.simulation.faulty_law import fault_near
-from saleg.simulation.indicators import both, summed
+from saleg.simulation.indicators import beyond_ports, both, summed
 from saleg.simulation.initial_state import State
 from saleg.simulation.performance import EnergyBalance
 from saleg.status import Status
@@ -42,8 +42,15 @@ def outcome_of(
     """
     E = state.engine[0]
     t, x = float(E["t"]), 1e3 * float(state.y[layout.X])
+    hint = _stall_hint(engine, strokes)
     if code == layout.HEAD_CONTACT:
         side = "left" if x < 0.0 else "right"
+        if isinstance(getattr(engine, side), OpenEnd):
+            return Status.HEAD_CONTACT, (
+                f"the translator came to the end of its room on the open {side} side at "
+                f"t = {t:.6g} s (x = {x:.5g} mm): nothing pushed it back in time; try springs that "
+                "push from there, stiffer or earlier"
+            )
         return Status.HEAD_CONTACT, (
             f"the piston reached the {side} head at t = {t:.6g} s (x = {x:.5g} mm); "
             "try less fuel, a larger load or more half_stroke"
@@ -63,7 +70,7 @@ def outcome_of(
     if code == layout.STALLED:
         share = 100.0 * float(E["stroke"] / E["maximum_stroke"])
         return Status.STALLED, (
-            f"the stroke fell to {share:.2g} % of the maximum at t = {t:.6g} s; {_STALL_HINT}"
+            f"the stroke fell to {share:.2g} % of the maximum at t = {t:.6g} s; {hint}"
         )
     if E["direction"] == 0.0:
         return Status.COMPLETED, f"never moved to t = {t:.6g} s: in equilibrium; try another start"
@@ -71,7 +78,7 @@ def outcome_of(
         since = float(E["t_dead_centre"])
         return Status.STALLED, (
             f"the piston stands still at x = {x:.5g} mm, no dead centre since t = {since:.6g} s; "
-            f"{_STALL_HINT}"
+            f"{hint}"
         )
     enough = conserves and len(strokes) > 2
     off = imbalance(strokes[-3], strokes[-2:]) if enough else 0.0
@@ -112,7 +119,13 @@ def imbalance(before: Any, strokes: np.ndarray) -> Any:
     return abs(balance.residual) / np.maximum(largest, 1e-300)
 
 
-_STALL_HINT = "try a smaller load, more fuel, or another start"
+NO_FRESH_GAS = "no fresh gas comes in; try wider intake ports or more intake.pressure"
+
+
+def _stall_hint(engine: Engine, strokes: np.ndarray) -> str:
+    if is_starved(engine, strokes):
+        return NO_FRESH_GAS
+    return "try a smaller load, more fuel, or another start"
 
 
 def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Status, str]:
@@ -124,7 +137,8 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
     if is_dead(engine, cycle) and not (steady and delivers_power(cycle)):
         fired = np.flatnonzero(strokes["heat_released"].sum(axis=1) > 0.0)
         since = f"since t = {float(strokes['t'][fired[-1]]):.6g} s" if len(fired) else "at all"
-        return Status.STALLED, f"ran to t = {t:.6g} s but has not fired {since}; {_STALL_HINT}"
+        why = _stall_hint(engine, strokes)
+        return Status.STALLED, f"ran to t = {t:.6g} s but has not fired {since}; {why}"
     if is_idling(engine, cycle):
         weight = float(cycle["load_weight"][-1])
         why = (
@@ -132,6 +146,8 @@ def _at_end_of_time(engine: Engine, t: float, strokes: np.ndarray) -> tuple[Stat
             if weight > 0.0
             else "the load weight is 0; try more fuel or a smaller alternator.target_stroke"
         )
+        if is_starved(engine, strokes):
+            why = NO_FRESH_GAS
         status = Status.IDLING if steady else Status.COMPLETED
         return status, f"fires at t = {t:.6g} s but delivers no power: {why}; {how}"
     if steady:
@@ -145,6 +161,17 @@ def is_dead(engine: Engine, cycle: np.ndarray) -> Any:
     driven, heat = all_of["alternator_work"] < 0.0, both(all_of["heat_released"])
     work = np.abs(cycle["gas_work"]).max(axis=(-2, -1))
     return engine.has_combustion & ~driven & ~(heat > REMNANT * work)
+
+
+def is_starved(engine: Engine, strokes: np.ndarray) -> bool:
+    """Whether no gas came in through ports that the pistons did uncover, in all cylinders."""
+    flows = [
+        "contents" in chamber.gas_exchange.states
+        for chamber in engine.chambers
+        if isinstance(chamber, Cylinder)
+    ]
+    uncovered = bool(flows) and all(flows) and beyond_ports(engine, strokes).any()
+    return bool(uncovered) and not (strokes["supplied_mass"] > 0.0).any()
 
 
 def delivers_power(cycle: np.ndarray) -> bool:

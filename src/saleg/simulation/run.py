@@ -73,7 +73,10 @@ class Run:
 
     @property
     def last_cycle_strokes(self) -> np.ndarray | None:
-        """Records of the last full cycle, left to left dead centre; None without one."""
+        """Records of the last full cycle, left to left dead centre; None without one.
+
+        Until a run has settled, those of an engine and of its mirror image are different strokes.
+        """
         start = last_cycle_start(self.strokes)
         return None if start is None else self.strokes[start : start + 2]
 
@@ -141,10 +144,10 @@ class Run:
         """
         from saleg.simulation.ranges import range_exits
 
-        orbit = self.orbit
-        if orbit is None or orbit.history_rows is None:
+        cycle = self if is_orbit(self) else self.orbit
+        if cycle is None or cycle.history_rows is None:
             return []
-        return range_exits(self.engine, orbit.strokes, orbit.history_rows)
+        return range_exits(self.engine, cycle.strokes, cycle.history_rows)
 
     @property
     def remarks(self) -> list[str]:
@@ -284,6 +287,12 @@ def read_only(records: np.ndarray) -> np.ndarray:
     view = records.view()
     view.flags.writeable = False
     return view
+
+
+def is_orbit(run: Run) -> bool:
+    """Whether a run is itself the record of one cycle, as that of a steady state is."""
+    whole = len(run.strokes) == 2 and run.strokes["direction"][0] > 0.0
+    return whole and run.replay is None and run.history_rows is not None
 
 
 def last_cycle_start(strokes: np.ndarray) -> int | None:

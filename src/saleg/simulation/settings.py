@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 
-from saleg.errors import SalegError, shown
+from saleg.errors import InvalidEngine, Problem, SalegError, WrongArguments, nearest, shown
 from saleg.kernel import tableaus
 from saleg.quantities import as_float, is_whole
 
@@ -18,6 +19,30 @@ DEFAULT_STEP = 5e-6
 
 class SettingsError(SalegError, ValueError):
     """A setting of :func:`saleg.simulate` that makes no sense."""
+
+
+def refuse(call: str, engines: Sequence[Problem], settings: Sequence[Problem]) -> None:
+    """Raise one error that names all that is wrong with the engines and settings of a call.
+
+    Parameters
+    ----------
+    call : str
+        Name of the function or class that was called.
+    engines, settings : sequence of Problem
+
+    Raises
+    ------
+    InvalidEngine, SettingsError
+        If one kind alone is wrong.
+    WrongArguments
+        If both are.
+    """
+    if engines and settings:
+        raise WrongArguments([*engines, *settings], f"arguments of {call}()")
+    if engines:
+        raise InvalidEngine(engines)
+    if settings:
+        raise SettingsError("cannot simulate:\n" + "\n".join(f"  {item}" for item in settings))
 
 
 def check_flag(name: str, value: Any) -> None:
@@ -55,6 +80,30 @@ class Settings:
         """Fixed step [s]."""
         return DEFAULT_STEP if self.step is None else self.step
 
+    @classmethod
+    def of(cls, duration: Any, given: Mapping[str, Any]) -> Settings:
+        """Settings by name as plain numbers, if there are such and they make sense.
+
+        Raises
+        ------
+        SettingsError
+            Naming everything that is wrong.
+        """
+        refuse("simulate", [], cls.wrong(duration, given))
+        return cls(duration, **given).checked()
+
+    @classmethod
+    def wrong(cls, duration: Any, given: Mapping[str, Any]) -> list[Problem]:
+        """Everything that is wrong with settings by name."""
+        names = [item.name for item in fields(cls)][1:]  # all but the duration
+        known = {name: value for name, value in given.items() if name in names}
+        unknown = [
+            Problem(name, value, "", f"no setting of simulate{nearest(name, names)}")
+            for name, value in given.items()
+            if name not in names
+        ]
+        return cls(duration, **known).problems() + unknown
+
     def checked(self) -> Settings:
         """The same as plain numbers, if they make sense.
 
@@ -63,9 +112,7 @@ class Settings:
         SettingsError
             Naming everything that is wrong.
         """
-        wrong = self._mistakes()
-        if wrong:
-            raise SettingsError("cannot simulate:\n" + "\n".join(f"  {text}" for text in wrong))
+        refuse("simulate", [], self.problems())
         return replace(
             self,
             duration=float(self.duration),
@@ -78,36 +125,33 @@ class Settings:
             keep_cycles=None if self.keep_cycles is None else int(self.keep_cycles),
         )
 
-    def _mistakes(self) -> list[str]:
-        wrong = []
+    def problems(self) -> list[Problem]:
+        """Every setting that makes no sense."""
+        wrong = {}
         if not isinstance(self.method, str) or self.method not in ("adaptive", "fixed"):
-            wrong.append(f"method = {shown(self.method)}: must be 'adaptive' or 'fixed'")
+            wrong["method"] = "must be 'adaptive' or 'fixed'"
         if as_float(self.order) not in tableaus.FIXED_STEP:
             orders = ", ".join(str(number) for number in tableaus.FIXED_STEP)
-            wrong.append(f"order = {shown(self.order)}: must be one of {orders}")
+            wrong["order"] = f"must be one of {orders}"
         for name, value, low, high in (
             ("duration", self.duration, 0.0, math.inf),
             ("step", self.fixed_step, 1e-12, 1.0),
         ):
             number = as_float(value)
             if number is None or not low < number < high:
-                wrong.append(f"{name} = {shown(value)}: must be a number > {low:g} and < {high:g}")
+                wrong[name] = f"must be a number > {low:g} and < {high:g}"
         rtol = as_float(self.rtol)
         if rtol is None or not 1e-14 <= rtol <= 1e-2:
-            wrong.append(f"rtol = {shown(self.rtol)}: must be a number from 1e-14 to 1e-2")
+            wrong["rtol"] = "must be a number from 1e-14 to 1e-2"
         share = as_float(self.stall_stroke)
         if share is None or not 0.0 <= share < 1.0:
-            wrong.append(
-                f"stall_stroke = {shown(self.stall_stroke)}: must be a number >= 0 and < 1"
-            )
+            wrong["stall_stroke"] = "must be a number >= 0 and < 1"
         for name, count in (("history", self.history), ("keep_cycles", self.keep_cycles)):
             if count is not None and not is_whole(count, 1, 2**31 - 1):
-                wrong.append(f"{name} = {shown(count)}: must be a whole number >= 1, or None")
+                wrong[name] = "must be a whole number >= 1, or None"
         if not isinstance(self.motored_pressure, (bool, np.bool_)):
-            wrong.append(
-                f"motored_pressure = {shown(self.motored_pressure)}: must be True or False"
-            )
-        return wrong
+            wrong["motored_pressure"] = "must be True or False"
+        return [Problem(name, getattr(self, name), "", text) for name, text in wrong.items()]
 
     def described(self) -> dict[str, Any]:
         """Method and tolerance, or order and step, as a run names them."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saleg.engine import Engine
-from saleg.errors import shown
+from saleg.errors import SalegError, WrongFields, shown
 from saleg.kernel import layout
 from saleg.laws.arguments import Signals
 from saleg.simulation.course import Replay
@@ -17,7 +17,7 @@ from saleg.simulation.initial_state import State
 from saleg.simulation.run import read_only
 from saleg.simulation.signals import measured
 from saleg.steady.entry_names import ENTRY_NAMES
-from saleg.steady.linear_inputs import Input, NoLinearModel, difference_of
+from saleg.steady.linear_inputs import Input, NoLinearModel, difference_of, place_of
 from saleg.steady.return_map import NoReturn, ReturnMap, step_tolerance
 from saleg.steady.stability import DIFFERENCE, TOLERANCE, split_multipliers
 
@@ -167,9 +167,8 @@ def linear_model(
         engine or drives it into a head.
     """
     inputs, outputs = tuple(inputs), tuple(outputs)
-    _check_outputs(outputs)
     engine, start = replay.engine, replay.start
-    given = [Input.of(engine, start, name) for name in inputs]
+    given = _checked(engine, start, inputs, outputs)
     mirrored = mirrored and all(item.keeps_mirror for item in given)
     image = _Image(start, mirrored, outputs)
     try:
@@ -245,11 +244,36 @@ def _derivative(image: _Image, given: Input) -> np.ndarray:
     return (ahead - behind) / (2.0 * by)
 
 
-def _check_outputs(outputs: Sequence[str]) -> None:
+def _checked(
+    engine: Engine, start: State, inputs: Sequence[str], outputs: Sequence[str]
+) -> list[Input]:
+    """The inputs, if they and all outputs can be had; else one error names those that cannot.
+
+    Two names of one number are one input: twins would share its effect.
+    """
+    found: dict[object, Input] = {}
+    wrong: list[SalegError] = []
+    for name in inputs:
+        try:
+            given = Input.of(engine, start, name)
+            place = place_of(engine, name)
+            if place in found:
+                raise NoLinearModel(f"input '{name}': is named twice")
+            found[place] = given
+        except SalegError as error:
+            wrong.append(error)
     known = ("dead_centre", *SIGNALS)
-    for name in outputs:
+    for n, name in enumerate(outputs):
         if name not in known:
-            raise NoLinearModel(f"output {shown(name)}: must be one of {', '.join(known)}")
+            text = f"output {shown(name)}: must be one of {', '.join(known)}"
+            wrong.append(NoLinearModel(text))
+        elif name in outputs[:n]:
+            wrong.append(NoLinearModel(f"output '{name}': is named twice"))
+    if len({type(error) for error in wrong}) == 1 and not isinstance(wrong[0], WrongFields):
+        raise type(wrong[0])("\n".join(map(str, wrong)))
+    if wrong:
+        raise wrong[0] if len(wrong) == 1 else NoLinearModel("\n".join(map(str, wrong)))
+    return list(found.values())
 
 
 def output_of(signals: Signals, name: str) -> float:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from saleg.engine import Engine
-from saleg.errors import SalegError, shown
+from saleg.engine.paths import claimed, known_paths
+from saleg.errors import SalegError, UnknownPath, nearest, shown
 from saleg.kernel import layout
 from saleg.kernel.control import supply
 from saleg.simulation.initial_state import State, prepare
@@ -53,17 +54,35 @@ class Input:
         if name in INPUTS:
             value = float(start.engine[name][0])
             return cls(value, lambda new: (engine, _commanded(start, name, new)))
-        value = engine.get(name)
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise NoLinearModel(f"input {shown(name)}: must be a number of the engine")
+        value = _number(engine, name)
+        by = difference_of(value)
+        beside = [engine.replace(**{name: value + change}) for change in (by, -by)]
+        for other in beside:
+            other.validate()
+        _check_geometry(engine, beside[0], name)
 
         def changed(new: float) -> tuple[Engine, State]:
             other = engine.replace(**{name: new})
-            other.validate()
-            return other, _with_numbers(engine, other, start, name)
+            return other, _with_numbers(engine, other, start)
 
-        beside = engine.replace(**{name: value + difference_of(value)})
-        return cls(float(value), changed, is_symmetric(beside) or not is_symmetric(engine))
+        return cls(float(value), changed, is_symmetric(beside[0]) or not is_symmetric(engine))
+
+
+def place_of(engine: Engine, name: str) -> object:
+    """What an input stands for: the same for two names of one number."""
+    return name if name in INPUTS else tuple(claimed({}, engine, name))
+
+
+def _number(engine: Engine, name: str) -> float:
+    """Number of an engine at a path."""
+    try:
+        value = engine.get(name)
+    except UnknownPath as error:
+        hint = nearest(name, [*INPUTS, *known_paths(engine)])
+        raise UnknownPath(f"input '{name}': no such input{hint}" if hint else str(error)) from None
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise NoLinearModel(f"input {shown(name)}: must be a number of the engine")
+    return value
 
 
 def difference_of(value: float) -> float:
@@ -79,15 +98,19 @@ def _commanded(start: State, name: str, value: float) -> State:
     return state
 
 
-def _with_numbers(engine: Engine, other: Engine, start: State, name: str) -> State:
+def _check_geometry(engine: Engine, other: Engine, name: str) -> None:
+    """Refuse an input with which what stands in the chambers would be another."""
+    was, now = prepare(engine).chambers, prepare(other).chambers
+    if any((was[field] != now[field]).any() for field in GEOMETRY):
+        raise NoLinearModel(
+            f"input '{name}': must not change the geometry or the gas, for then what stands "
+            "in the chambers is another"
+        )
+
+
+def _with_numbers(engine: Engine, other: Engine, start: State) -> State:
     """A state as it stands, in an engine with another number from now on."""
     state, was, now = start.copy(), prepare(engine), prepare(other)
-    for field in GEOMETRY:
-        if (was.chambers[field] != now.chambers[field]).any():
-            raise NoLinearModel(
-                f"input '{name}': must not change the geometry or the gas, for then what stands "
-                "in the chambers is another"
-            )
     for field in ENGINE_NUMBERS:
         state.engine[field] += now.engine[field] - was.engine[field]
     for field in CHAMBER_NUMBERS:

@@ -23,6 +23,7 @@ from saleg.kernel.orbits import Searches
 from saleg.kernel.tuples import Snapshots
 from saleg.laws import NoHeatTransfer
 from saleg.simulation.initial_rows import States, prepare_rows
+from saleg.simulation.law_ranges import check_flows
 from saleg.simulation.outcome import imbalance, is_dead, is_idling
 from saleg.status import Status
 from saleg.steady.entries import is_adiabatic
@@ -152,6 +153,7 @@ def _can_be_searched(engine: Engine) -> bool:
         engine.validate()
         engine.check_laws()
         check_methods(engine.laws.values())
+        check_flows(engine)
         return repeats_itself(engine) and not has_slow_states(engine)
     except SalegError:
         return False

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from saleg.checks import NAMES, checked
 from saleg.engine import Engine
 from saleg.errors import SalegError
 from saleg.simulation.course import Replay
@@ -185,6 +186,7 @@ class SteadyState:
         assert self.replay is not None
         return stability(self.replay, self.mirrored, float(self.strokes["duration"].sum()))
 
+    @checked(inputs=NAMES, outputs=NAMES)
     def linear(
         self, inputs: Sequence[str] = INPUTS, outputs: Sequence[str] = OUTPUTS
     ) -> LinearModel:
@@ -211,10 +213,11 @@ class SteadyState:
         NoSteadyState
             If there is no cycle to differentiate.
         NoLinearModel
-            If an output is not known, an input changes geometry or gas, or the least change ends
-            the motion.
+            If an output is not known, an input changes geometry or gas, a name stands twice, or the
+            least change ends the motion; all that is wrong is named.
         UnknownPath, InvalidEngine
-            If an input is no path of the engine, or stands at a limit of its range.
+            If nothing else is wrong than that inputs are no paths of the engine, or that one stands
+            at a limit of its range.
 
         Examples
         --------
@@ -268,5 +271,5 @@ class SteadyState:
         stable = "stability not examined" if known is None else known.kind
         head = f"{self.engine.name}: {self.status} ({stable}) - {self.message}"
         head = head if self.found else head.replace(f" ({stable})", "")
-        shown = describe_cycle(self.performance, self.scavenging, self.orbit, self.remarks)
+        shown = describe_cycle(self.performance, self.scavenging, self.validity)
         return "\n".join([head, *shown])

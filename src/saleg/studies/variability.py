@@ -111,7 +111,7 @@ def variability(
     if not isinstance(law, CyclicVariability):
         wanted = "must have CyclicVariability in its slot scatter"
         raise WrongArguments([Problem("engine", engine, "", wanted)], "arguments of variability()")
-    known = Settings(duration, **settings).checked()
+    known = Settings.of(duration, settings)
     engines = [
         engine.replace(scatter=dataclasses.replace(law, seed=law.seed + n)) for n in range(seeds)
     ]

@@ -114,7 +114,8 @@ class PhaseLockedMotor(MotorControl):
 
     def drive(self, memory: Any, signals: Signals) -> Drive:
         """Force until the next dead centre."""
-        if signals.frequency == 0.0:
+        # From an equilibrium that rounding misses, the first stroke has no length.
+        if signals.frequency == 0.0 or signals.stroke < 1e-9:
             return Drive(self.amplitude, self.base_frequency, 0.0, 0.0, 0.0)
         along = 0.0 if signals.direction >= 0.0 else math.pi
         return Drive(self.amplitude, signals.frequency, 0.0, 1.0, along)
