@@ -55,7 +55,12 @@ lengths = {
 }
 exchange = st.one_of(
     instances(saleg.laws.InstantExchange),
-    instances(saleg.laws.PortFlow, intake_delay=st.floats(0.0, 9e-4)),
+    instances(
+        saleg.laws.PortFlow,
+        intake_delay=st.floats(0.0, 9e-4),
+        exhaust_height=st.floats(1e-6, 0.02),
+        intake_height=st.floats(1e-6, 0.02),
+    ),
 )
 injection = st.one_of(
     instances(saleg.laws.PortMixing),
