@@ -1,10 +1,14 @@
 """Validity of a result: laws outside their ranges, implausible figures, the nearest machine."""
 
+import dataclasses
+from html import unescape
+
 import numpy as np
 import pytest
 
 import saleg
 from saleg.kernel.layout import STROKE_RECORD
+from saleg.reporting import document
 from saleg.simulation.plausibility import LIMITS
 from saleg.simulation.validity import validity_of
 from saleg.thesis.tables import columns
@@ -24,17 +28,55 @@ def test_the_base_case_is_plausible_and_like_no_machine(first):
     """Auto-ignited methane: those of others light petrol, propane and diesel at a moment."""
     report = first.validity
     assert report.implausible == ()
-    assert list(report.range_exits) == first.orbit.range_exits
+    assert {(row["side"], row["law"]) for row in report.range_exits} == {
+        ("left", "ChangGas"),
+        ("right", "ChangGas"),
+    }
     assert report.nearest.supported == ()
     assert "auto-ignition (its spark or injection)" in report.nearest.differences
     assert "another fuel" in report.nearest.differences
-    assert str(report).startswith("supported by no published machine; nearest is ")
+    assert "supported by no published machine; nearest is " in str(report)
 
 
 def test_a_run_says_the_same_as_its_steady_state(base, first):
     run = saleg.simulate(base, 1.0)
     assert run.validity.nearest == first.validity.nearest
     assert run.validity.implausible == ()
+    for one, same in zip(first.validity.range_exits, run.validity.range_exits, strict=True):
+        assert one["seen_high"] == pytest.approx(same["seen_high"], rel=1e-4)
+
+
+def test_text_cards_and_reports_say_it(first):
+    """Which law left its range and how far, which figure is implausible, what supports it."""
+    report, peak = first.validity, first.performance.peak_temperature
+    told = f"for temperature 550 to 2150 K, saw 325.1 to {peak:.4g}, outside for "
+    share = f"{100.0 * report.range_exits[0]['time_share']:.3g} % of its time"
+    page = unescape(document.page(first))
+    for text in (str(first), unescape(first._repr_html_()), page):
+        assert told + share in text
+        assert f"earest is {report.nearest.name}" in text
+        assert report.nearest.differences[0] in text
+    harsh = saleg.steady_state(
+        first.engine.replace(**{"intake.pressure": 6e5, "equivalence_ratio": 0.9})
+    )
+    page = unescape(document.page(harsh))
+    for figure in harsh.validity.implausible:
+        assert f"{figure}: {figure.reason}" in page
+        assert f"beyond what is built: {figure}" in unescape(harsh._repr_html_())
+
+
+def test_both_sides_of_an_engine_count_in_what_a_law_saw(base):
+    """The hotter side is told, be it left or right."""
+    hot = base.replace(**{"right.equivalence_ratio": 0.7})
+    for engine in (hot, dataclasses.replace(hot, left=hot.right, right=hot.left)):
+        found = saleg.steady_state(engine)
+        highest = max(row["seen_high"] for row in found.validity.range_exits)
+        assert f"to {highest:.4g}, outside" in str(found)
+
+
+def test_nothing_is_supported_where_there_is_no_figure(base):
+    stalled = saleg.simulate(base.replace(**{"alternator.load_constant": 300.0}), 2.0)
+    assert "nearest" not in str(stalled)
 
 
 def test_what_is_beyond_a_limit_is_told_with_its_reason(base):

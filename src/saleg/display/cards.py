@@ -13,12 +13,7 @@ from saleg.display.numbers import inputs, number
 from saleg.display.page import card, column, details, figures, raised
 from saleg.display.svg import LEFT, RIGHT, Curve, chart, picture, tag, text
 from saleg.simulation.readable import readable
-from saleg.simulation.report import (
-    describe_ranges,
-    describe_remarks,
-    figure_rows,
-    scavenging_rows,
-)
+from saleg.simulation.report import describe_validity, figure_rows, scavenging_rows
 
 if TYPE_CHECKING:
     from saleg.engine import Engine
@@ -68,7 +63,7 @@ def performance_card(performance: Performance) -> str:
 def run_card(run: Run) -> str:
     """How a run ended, its key figures and its p-V loops."""
     told = f"run of {number(run.duration)} s: {run.status} - {run.message}"
-    notes = [line.strip() for line in (*describe_ranges(run.orbit), *describe_remarks(run.remarks))]
+    notes = describe_validity(run.validity, run.performance)
     parts = _cycle(run.performance, run.orbit, exchanged=scavenging_rows(run.scavenging))
     return card(run.engine.name, told, *parts, notes=notes)
 
@@ -79,8 +74,7 @@ def steady_card(found: SteadyState, added: Iterable[tuple[str, str, str]] = ()) 
     rows = [*added]
     if found.has_multipliers:
         rows.append(("stability", found.stability.kind, ""))
-    remarks = *describe_ranges(found.orbit), *describe_remarks(found.remarks)
-    notes = [line.strip() for line in remarks]
+    notes = describe_validity(found.validity, found.performance)
     exchanged = scavenging_rows(found.scavenging)
     parts = _cycle(found.performance, found.orbit, rows, exchanged)
     return card(found.engine.name, told, *parts, notes=notes)

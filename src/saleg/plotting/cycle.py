@@ -26,6 +26,7 @@ from saleg.plotting.style import (
     marker,
 )
 from saleg.simulation.readable import readable
+from saleg.simulation.run import Run, is_orbit
 from saleg.simulation.tables import HISTORY_UNITS
 
 if TYPE_CHECKING:
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.plotting.figure import ShownAxes
-    from saleg.simulation.run import Run
 
 #: Relative difference beyond which motored and actual pressure are two.
 SAME_PRESSURE = 1e-6
@@ -155,12 +155,6 @@ def finish_cycle(
         columns = min(place.columns, place.number + 1 if column_per_run else place.columns)
     sign(ax, cycle.run)
     return finish(ax, title_of(ax, cycle.run, title, place), legend, columns)
-
-
-def is_orbit(run: Run) -> bool:
-    """Whether a run is itself the record of one cycle, as that of a steady state is."""
-    whole = len(run.strokes) == 2 and run.strokes["direction"][0] > 0.0
-    return whole and run.replay is None and run.history_rows is not None
 
 
 def last_cycle(run: Run) -> Cycle:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from saleg.errors import AxesError
-from saleg.plotting.cycle import NoCycle, is_orbit, titled
+from saleg.plotting.cycle import NoCycle, titled
 from saleg.plotting.docstrings import documented
 from saleg.plotting.overlay import sign
 from saleg.plotting.style import ALTERNATOR_COLOUR, FRICTION_COLOUR, axes_or_new
 from saleg.simulation.performance import EnergyBalance
-from saleg.simulation.run import Run
+from saleg.simulation.run import Run, is_orbit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saleg.plotting.cycle import NoCycle, is_orbit, last_cycle, title_of
+from saleg.plotting.cycle import NoCycle, last_cycle, title_of
 from saleg.plotting.docstrings import documented
 from saleg.plotting.gas import pressure_position
 from saleg.plotting.labels import label as label_of
@@ -20,6 +20,7 @@ from saleg.plotting.style import (
     panels_or_new,
 )
 from saleg.plotting.translator import velocity_position
+from saleg.simulation.run import Run, is_orbit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from saleg.plotting.figure import Panels
-    from saleg.simulation.run import Run
 
 
 #: Least relative height of an axis of :func:`approach_to_steady_state`: what varies less is steady.

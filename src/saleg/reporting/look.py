@@ -19,6 +19,7 @@ body {{ margin: 0 auto; padding: 1rem; max-width: 70rem; color: var(--ink);
   background: var(--paper); font: 1rem/1.5 system-ui, sans-serif; overflow-wrap: break-word; }}
 h1 {{ font-size: 1.6rem; line-height: 1.2; margin: 0.4em 0 0.2em; }}
 h2 {{ font-size: 1.15rem; margin: 0 0 0.5em; }}
+h3 {{ font-size: 1rem; font-weight: 600; margin: 0.8em 0 0.2em; }}
 p {{ margin: 0.4em 0; max-width: 46rem; }}
 section {{ border-top: 1px solid var(--line); padding: 1rem 0; }}
 ul {{ margin: 0.4em 0; padding-left: 1.2em; }}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from html import escape
 
 from saleg.display.cards import KEY, pressure_loops, stability_card
@@ -16,8 +16,9 @@ from saleg.plotting.energy import balance_of
 from saleg.reporting import charts
 from saleg.reporting.subject import Subject
 from saleg.simulation.readable import readable
-from saleg.simulation.report import describe_ranges, figure_rows, scavenging_rows
+from saleg.simulation.report import describe_exits, figure_rows, scavenging_rows
 from saleg.simulation.run import Run
+from saleg.simulation.validity import NearestMachine
 from saleg.studies.elasticities import elasticities
 
 #: Colours of an elasticity of +1 and of -1, and the elasticity of the full colour.
@@ -172,15 +173,47 @@ def _heat(value: float) -> str:
 
 
 def validity(subject: Subject) -> str:
-    """Where the engine, its laws and its figures leave what is known."""
-    orbit, result = subject.orbit, subject.result
-    notes = [f"unusual: {problem}" for problem in subject.engine.unusual()]
-    notes += [line.strip() for line in describe_ranges(orbit)]
-    notes += [f"beyond what is built: {remark}" for remark in result.remarks]
-    listed = "".join(f"<li>{escape(note)}</li>" for note in notes)
+    """Where the engine, its laws and its figures leave what is known, and what supports them."""
+    found = subject.result.validity
+    figures_beyond = [
+        str(one) if math.isnan(one.limit) else f"{one}: {one.reason}" for one in found.implausible
+    ]
+    parts = [
+        listed("Laws outside their ranges", describe_exits(found.range_exits)),
+        listed("Figures beyond what is built", figures_beyond),
+        listed("Unusual numbers of the engine", map(str, subject.engine.unusual())),
+    ]
+    if not any(parts):
+        parts = [paragraph("All laws were inside their ranges, and no figure is implausible.")]
+    if found.nearest is not None and subject.performance.frequency > 0.0:
+        parts.append(support(found.nearest))
     always = (
-        "The gas is ideal with a charge of one zone. Nothing here was compared with a measured "
-        "engine; some constants were fitted to the tables of a dissertation (docs/validity.md)."
+        "The gas is ideal with a charge of one zone. No measured trace stands behind these "
+        "numbers; some constants were fitted to the tables of a dissertation (docs/validity.md)."
     )
-    found = f"<ul>{listed}</ul>" if notes else paragraph("All laws were inside their ranges.")
-    return section("Validity", found, paragraph(always, "faint"))
+    return section("Validity", *parts, paragraph(always, "faint"))
+
+
+def support(nearest: NearestMachine) -> str:
+    """What the nearest published machine supports, and our deviations from its results."""
+    off = [
+        f"{name} of that machine: ours is {100.0 * part:+.1f} % off"
+        for name, part in nearest.deviations.items()
+    ]
+    kind = "measured" if nearest.is_measured else "simulated by its source"
+    told = f"Nearest is {nearest.name}, {kind}. "
+    if nearest.differences:
+        told += (
+            f"This engine is not like it: {'; '.join(nearest.differences)}. It supports nothing."
+        )
+    else:
+        told += f"It supports {', '.join(nearest.supported) or 'nothing'}."
+    title = "Support by a published machine"
+    return f"<h3>{title}</h3>" + paragraph(told) + listed("", off)
+
+
+def listed(title: str, items: Iterable[str]) -> str:
+    """Items (text) as a list under a title (text); nothing without items."""
+    inside = "".join(f"<li>{escape(item)}</li>" for item in items)
+    head = f"<h3>{escape(title)}</h3>" if title else ""
+    return f"{head}<ul>{inside}</ul>" if inside else ""

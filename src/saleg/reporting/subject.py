@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from saleg.engine import Engine
-from saleg.plotting.cycle import is_orbit
 from saleg.simulation.performance import EnergyBalance, Performance
-from saleg.simulation.run import Run
+from saleg.simulation.run import Run, is_orbit
 from saleg.status import Status
 from saleg.steady.solver import Effort, found_steady_state
 from saleg.steady.state import SteadyState

@@ -8,12 +8,12 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from saleg.simulation.performance import FIGURES, Figure, Performance
-from saleg.simulation.ranges import range_exits
 from saleg.simulation.readable import readable
 from saleg.simulation.scavenging import Scavenging
 
 if TYPE_CHECKING:
     from saleg.simulation.run import Run
+    from saleg.simulation.validity import ValidityReport
 
 
 def figure_rows(performance: Performance) -> dict[str, tuple[str, str, str]]:
@@ -58,44 +58,47 @@ def describe_performance(performance: Performance) -> str:
 def describe_run(run: Run) -> str:
     """Run as a short report."""
     head = f"{run.engine.name}: {run.status} - {run.message}"
-    return "\n".join(
-        [head, *describe_cycle(run.performance, run.scavenging, run.orbit, run.remarks)]
-    )
+    return "\n".join([head, *describe_cycle(run.performance, run.scavenging, run.validity)])
 
 
 def describe_cycle(
-    performance: Performance,
-    scavenging: Sequence[Scavenging],
-    orbit: Run | None,
-    remarks: list[str],
+    performance: Performance, scavenging: Sequence[Scavenging], validity: ValidityReport
 ) -> list[str]:
-    """Lines for the figures of a cycle, and for where they leave what is known."""
+    """Lines for the figures of a cycle, and for what speaks against them and for them."""
     return [
         describe_performance(performance),
         *describe_rows(scavenging_rows(scavenging)),
-        *describe_ranges(orbit),
-        *describe_remarks(remarks),
+        *(f"  {line}" for line in describe_validity(validity, performance)),
     ]
 
 
-def describe_remarks(remarks: list[str]) -> list[str]:
-    """A line for every figure no engine built comes near."""
-    return [f"  beyond what is built: {remark}" for remark in remarks]
+def describe_validity(validity: ValidityReport, performance: Performance) -> list[str]:
+    """A line for every law outside its range, every implausible figure, and the nearest machine.
+
+    The machine is left out where there are no figures that it could support.
+    """
+    lines = [f"outside its range: {text}" for text in describe_exits(validity.range_exits)]
+    lines += [f"beyond what is built: {figure}" for figure in validity.implausible]
+    if validity.nearest is not None and performance.frequency > 0.0:
+        lines.append(str(validity.nearest))
+    return lines
 
 
-def describe_ranges(orbit: Run | None) -> list[str]:
-    """A line for every law that was asked, in a cycle, outside the range it was made for."""
-    if orbit is None or orbit.history_rows is None:
-        return []
-    return describe_exits(range_exits(orbit.engine, orbit.strokes, orbit.history_rows))
+def describe_exits(exits: Iterable[dict[str, Any]]) -> list[str]:
+    """Words for every law of :func:`.ranges.range_exits`, both sides together."""
+    rows: dict[tuple[str, str], list[dict[str, Any]]] = {}
+    for row in exits:
+        rows.setdefault((row["law"], row["quantity"]), []).append(row)
+    return [_exit_in_words(sides) for sides in rows.values()]
 
 
-def describe_exits(exits: list[dict[str, Any]]) -> list[str]:
-    """A line for every law of :func:`.ranges.range_exits`."""
-    rows = {(row["law"], row["quantity"]): row for row in exits}
-    return [
-        f"  outside its range: {row['law']} is for {row['quantity'].replace('_', ' ')} "
-        f"{row['low']:g} to {row['high']:g} {'' if row['unit'] == '-' else row['unit']}, "
-        f"saw {row['seen_low']:.4g} to {row['seen_high']:.4g} ({row['source']})"
-        for row in rows.values()
-    ]
+def _exit_in_words(sides: Sequence[dict[str, Any]]) -> str:
+    """Range of a law, what it saw on any side, and for how much of its time it was outside."""
+    law, low, high = sides[0], min(s["seen_low"] for s in sides), max(s["seen_high"] for s in sides)
+    unit = "" if law["unit"] == "-" else f" {law['unit']}"
+    share = max(side["time_share"] for side in sides)
+    return (
+        f"{law['law']} is for {law['quantity'].replace('_', ' ')} {law['low']:g} to "
+        f"{law['high']:g}{unit}, saw {low:.4g} to {high:.4g}, "
+        f"outside for {100.0 * share:.3g} % of its time ({law['source']})"
+    )

@@ -141,10 +141,10 @@ class Run:
         """
         from saleg.simulation.ranges import range_exits
 
-        orbit = self.orbit
-        if orbit is None or orbit.history_rows is None:
+        cycle = self if is_orbit(self) else self.orbit
+        if cycle is None or cycle.history_rows is None:
             return []
-        return range_exits(self.engine, orbit.strokes, orbit.history_rows)
+        return range_exits(self.engine, cycle.strokes, cycle.history_rows)
 
     @property
     def remarks(self) -> list[str]:
@@ -284,6 +284,12 @@ def read_only(records: np.ndarray) -> np.ndarray:
     view = records.view()
     view.flags.writeable = False
     return view
+
+
+def is_orbit(run: Run) -> bool:
+    """Whether a run is itself the record of one cycle, as that of a steady state is."""
+    whole = len(run.strokes) == 2 and run.strokes["direction"][0] > 0.0
+    return whole and run.replay is None and run.history_rows is not None
 
 
 def last_cycle_start(strokes: np.ndarray) -> int | None:

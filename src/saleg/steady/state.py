@@ -268,5 +268,5 @@ class SteadyState:
         stable = "stability not examined" if known is None else known.kind
         head = f"{self.engine.name}: {self.status} ({stable}) - {self.message}"
         head = head if self.found else head.replace(f" ({stable})", "")
-        shown = describe_cycle(self.performance, self.scavenging, self.orbit, self.remarks)
+        shown = describe_cycle(self.performance, self.scavenging, self.validity)
         return "\n".join([head, *shown])
