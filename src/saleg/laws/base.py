@@ -179,9 +179,16 @@ class HeatRelease(Law):
 
 
 class Ignition(Law):
-    """Start of combustion by an integral that starts at port closing."""
+    """Start of combustion by an integral that starts at port closing.
+
+    Attributes
+    ----------
+    is_timed : bool
+        Whether a spark or an injection sets the moment; else the charge lights itself.
+    """
 
     slot = "ignition"
+    is_timed: ClassVar[bool] = False
     compiled = ("rate", "lights_at_dead_centre")
     optional = ("lights_at_dead_centre",)
     at_every_step = ("rate",)

@@ -154,6 +154,8 @@ class SparkAtClearance(Ignition):
         Clearance between crown and head at the spark [m]; a controller may have it come earlier.
     """
 
+    is_timed: ClassVar[bool] = True
+
     clearance: float = quantity("m", default=0.020, low=0, usual=LENGTH)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
@@ -175,6 +177,8 @@ class SparkAfterDelay(Ignition):
         Time from port closing to the spark [s].
     """
 
+    is_timed: ClassVar[bool] = True
+
     delay: float = quantity("s", default=7e-3, low=0, open_low=True, usual=(1e-5, 0.2))
 
     def rate(self, gas: Gas, charge: Charge) -> float:
@@ -195,6 +199,8 @@ class SparkBeforeDeadCentre(Ignition):
     advance : float
         Time from the spark to the dead centre foreseen [s].
     """
+
+    is_timed: ClassVar[bool] = True
 
     advance: float = quantity("s", default=1e-3, low=0, usual=(1e-5, 0.2))
 
