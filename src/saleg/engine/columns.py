@@ -12,6 +12,7 @@ import numpy as np
 
 from saleg import quantities
 from saleg.columns import Column, column, row_of
+from saleg.engine.charge_gas import is_gas_of_charge
 from saleg.engine.engine import Engine, lengths_fit
 from saleg.quantities import Limits, Quantities
 
@@ -193,6 +194,8 @@ def is_usual(rows: Rows) -> np.ndarray:
     for value, limits in _quantities(rows.engine):
         if limits.usual:
             usual &= quantities.is_usual(value, limits)
+    for chamber in rows.engine.chambers:
+        usual &= is_gas_of_charge(chamber)
     return usual
 
 

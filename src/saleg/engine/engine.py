@@ -24,6 +24,7 @@ from saleg.engine.chambers import (
     OpenEnd,
     Translator,
 )
+from saleg.engine.charge_gas import is_gas_of_fuel, other_gases, with_gas_of_charge
 from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine, SalegWarning
 from saleg.laws import (
@@ -208,7 +209,8 @@ class Engine:
             New values (SI) by dotted path; paths with dots are passed as
             ``**{"intake.temperature": 300.0}``. A path of a chamber changes both sides unless
             ``left.`` or ``right.`` stands before it; where only one of them is a cylinder, it
-            is the cylinder's. A law and one of its numbers may be given together.
+            is the cylinder's. A law and one of its numbers may be given together. A gas made by
+            :func:`saleg.fuels.fill` goes with the equivalence ratio and the retained share.
 
         Returns
         -------
@@ -223,7 +225,7 @@ class Engine:
             If two names stand for one number: ``egr`` and ``gas_exchange.egr``, or ``bore`` and
             ``left.bore``.
         """
-        return paths.replace(self, changes)
+        return with_gas_of_charge(self, paths.replace(self, changes))
 
     def problems(self) -> list[Problem]:
         """Every wrong field of the engine; empty when it is valid."""
@@ -237,7 +239,7 @@ class Engine:
 
         Each names the usual range and, if one fits, the unit the number may have been given in.
         """
-        return self._each_part(unusual)
+        return [*self._each_part(unusual), *other_gases(self)]
 
     def _each_part(self, look: Callable[[Any, str], list[Problem]]) -> list[Problem]:
         """What is found in the parts, with their paths; chambers that are alike count once."""
@@ -389,7 +391,12 @@ def lengths_fit(engine: Engine) -> Any:
     for chamber in engine.chambers:
         gap, port = chamber.head_gap, getattr(chamber, "port_closing", most / 2)
         fit = fit & (gap < chamber.half_stroke) & (gap < port) & (port < most)
-    for _, _, good, _, _ in (*_limits_of_flow(engine, most), *_limits_of_backs(engine)):
+    limits = (
+        *_limits_of_flow(engine, most),
+        *_limits_of_backs(engine),
+        *_limits_of_composition(engine),
+    )
+    for _, _, good, _, _ in limits:
         fit = fit & good
     return fit
 
@@ -466,6 +473,8 @@ def _limits_of_composition(engine: Engine) -> Iterator[tuple[int, str, Any, str,
                 "must be one gas, such as MixtureGas, in a chamber that gas flows or leaks into"
             )
             yield side, "gas_properties", not flows, "-", allowed
+        allowed = "must be the fuel that gas_properties is made of: saleg.fuels.fill sets both"
+        yield side, "fuel", is_gas_of_fuel(chamber), "-", allowed
 
 
 def _limits_of_flow(engine: Engine, most: Any) -> Iterator[tuple[int, str, Any, str, str]]:

@@ -252,8 +252,14 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
     burnt_per_fuel = (
         (1.0 + ratio) * burning_share(cylinder) * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
     )
-    fuel = mass / (1.0 + ratio / phi + burnt_per_fuel)
-    return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
+    gas, air_per_fuel = cylinder.gas_properties, ratio / phi
+    whole = 1.0 + air_per_fuel + burnt_per_fuel
+    if gas.follows_composition:
+        parts = (1.0, air_per_fuel, burnt_per_fuel)
+        constant = sum(part * R for part, R in zip(parts, gas.gas_constants, strict=True)) / whole
+        mass *= gas.gas_constant / constant
+    fuel = mass / whole
+    return mass, fuel, fuel * air_per_fuel, fuel * burnt_per_fuel
 
 
 def burning_share(cylinder: Any) -> float:

@@ -20,7 +20,8 @@ class Validity(NamedTuple):
     Attributes
     ----------
     quantity : str
-        "temperature" [K], "pressure" [Pa], "mean_piston_speed" [m/s] or "equivalence_ratio" [-].
+        "temperature" [K], "pressure" [Pa], "mean_piston_speed" [m/s], "equivalence_ratio",
+        "burnt_share" of the charge by mass, or "air_fuel_ratio" of the fuel [-].
     low, high : float
         The range, in the SI unit of the quantity.
     source : str
@@ -48,7 +49,8 @@ class Law(Quantities):
         Those among them, of gas and charge, whose formula is reduced to fewer powers
         (:mod:`saleg.compiler.strength_reduction`).
     valid_for : tuple of Validity
-        Ranges the law was made for; a run says where it left them.
+        Ranges the law was made for; a run says where it left them. Where they follow from its
+        numbers it has them as :attr:`ranges`.
     earlier_names : dict of str to str
         Methods that have another name now: a law that has only the earlier one is taken at that.
     mirrors : bool
@@ -72,6 +74,11 @@ class Law(Quantities):
     mirrors: ClassVar[bool] = False
     states: ClassVar[tuple[str, ...]] = ()
     derived: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def ranges(self) -> tuple[Validity, ...]:
+        """Ranges a law of these numbers was made for: `valid_for` unless it says otherwise."""
+        return self.valid_for
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()

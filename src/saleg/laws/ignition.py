@@ -20,6 +20,9 @@ ATMOSPHERE = 101325.0
 AIR = 0.02885
 METHANE = 0.016043
 OXYGEN_IN_AIR = 0.21
+#: Source of the ranges of a table, and how far an air-fuel ratio may be from its fuel's.
+TABLE = "its table"
+SAME_FUEL = 0.05
 HE = "He et al., Combust. Flame 142:266 (2005)"
 
 
@@ -260,6 +263,8 @@ class TabulatedDelay(Ignition):
         Delays [s], equivalence ratio running fastest, then temperature, pressure, burnt share.
     burnt_shares : tuple of float
         Shares of burnt gas in the charge by mass, rising [-].
+    air_fuel_ratio : float
+        Stoichiometric air-fuel ratio of the fuel of the table by mass [-]; 0 if not said.
     """
 
     pressures: tuple[float, ...] = series(
@@ -274,6 +279,7 @@ class TabulatedDelay(Ignition):
         length="burnt_shares*pressures*temperatures*equivalence_ratios",
     )
     burnt_shares: tuple[float, ...] = series("-", default=(0.0,), low=0, high=1, rising=True)
+    air_fuel_ratio: float = quantity("-", default=0.0, low=0)
 
     derived: ClassVar[tuple[str, ...]] = (
         "ln_pressures",
@@ -308,6 +314,21 @@ class TabulatedDelay(Ignition):
     def temperature_slopes(self) -> tuple[float, ...]:
         """Slopes of those logarithms over -1/T [K]."""
         return slopes(self.cold_to_hot, self.ln_delays, len(self.equivalence_ratios))
+
+    @property
+    def ranges(self) -> tuple[Validity, ...]:
+        """The table, and the fuel it was made for."""
+        axes = {
+            "pressure": self.pressures,
+            "temperature": self.temperatures,
+            "equivalence_ratio": self.equivalence_ratios,
+            "burnt_share": self.burnt_shares,
+        }
+        table = tuple(Validity(name, axis[0], axis[-1], TABLE) for name, axis in axes.items())
+        if self.air_fuel_ratio <= 0.0:
+            return table
+        least, most = (self.air_fuel_ratio * (1.0 + off) for off in (-SAME_FUEL, SAME_FUEL))
+        return *table, Validity("air_fuel_ratio", least, most, "the fuel of its table")
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: one over the delay."""
