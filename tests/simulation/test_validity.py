@@ -207,3 +207,25 @@ def test_an_engine_that_burns_nothing_is_near_to_none():
     assert report.nearest is None
     assert str(report) == ""
     assert report.table.empty
+
+
+def test_a_spark_foreseen_comes_when_asked_or_says_why_not(base):
+    """With strokes alike at the time asked; where only one side fires both facts are told."""
+    met = saleg.steady_state(base.replace(ignition=saleg.laws.SparkBeforeDeadCentre(1e-3)))
+    assert met.performance.start_of_combustion == pytest.approx(1e-3, rel=1e-5)
+    assert met.remarks == []
+    late = saleg.steady_state(base.replace(ignition=saleg.laws.SparkBeforeDeadCentre(0.0)))
+    (silent,) = late.remarks
+    assert "cylinder has fuel and does not fire" in silent
+    ratios = [row for row in late.validity.range_exits if row["quantity"] == "stroke_ratio"]
+    assert ratios[0]["seen_low"] * ratios[1]["seen_high"] == pytest.approx(1.0)
+    assert (ratios[0]["low"], ratios[0]["high"]) == (0.99, 1.01)
+
+
+@pytest.mark.parametrize("name", ["polimi", "newcastle"])
+def test_an_engine_with_one_cylinder_foresees_no_dead_centre(name):
+    """Asked for 1 ms the spark would come 3.4 ms and 4.3 ms before dead centre."""
+    engine = saleg.machines.PUBLISHED[name].engine()
+    spark = engine.replace(ignition=saleg.laws.SparkBeforeDeadCentre(1e-3))
+    with pytest.raises(saleg.InvalidEngine, match="must not foresee the dead centre"):
+        spark.validate()

@@ -422,6 +422,7 @@ def _geometry_problems(engine: Engine) -> list[Problem]:
             *_limits_of_flow(engine, most),
             *_limits_of_backs(engine),
             *_limits_of_composition(engine),
+            *_limits_of_foresight(engine),
         )
         for number, path, good, unit, allowed in limits:
             if not good and number < len(sides):
@@ -495,3 +496,15 @@ def _limits_of_flow(engine: Engine, most: Any) -> Iterator[tuple[int, str, Any, 
             allowed = "must be a PortFlow, or another law by which gas flows, with a crankcase"
             flows = "contents" in ports.states
             yield side, "gas_exchange", flows, "-", allowed
+
+
+def _limits_of_foresight(engine: Engine) -> Iterator[tuple[int, str, Any, str, str]]:
+    """Limits of laws that foresee dead centres, as :func:`_limits_of_flow` has them."""
+    burns = all(isinstance(chamber, CombustionChamber) for chamber in engine.chambers)
+    for side, chamber in enumerate(engine.chambers):
+        if isinstance(chamber, CombustionChamber) and chamber.ignition.foresees_dead_centre:
+            allowed = (
+                "must not foresee the dead centre from the stroke before in an engine with one "
+                "cylinder, whose strokes either way differ: take SparkAtClearance"
+            )
+            yield side, "ignition", burns, "-", allowed

@@ -21,7 +21,8 @@ class Validity(NamedTuple):
     ----------
     quantity : str
         "temperature" [K], "pressure" [Pa], "mean_piston_speed" [m/s], "equivalence_ratio",
-        "burnt_share" of the charge by mass, or "air_fuel_ratio" of the fuel [-].
+        "burnt_share" of the charge by mass, "air_fuel_ratio" of the fuel, or "stroke_ratio",
+        duration of the stroke towards the head over that of the one before [-].
     low, high : float
         The range, in the SI unit of the quantity.
     source : str
@@ -192,10 +193,14 @@ class Ignition(Law):
     ----------
     is_timed : bool
         Whether a spark or an injection sets the moment; else the charge lights itself.
+    foresees_dead_centre : bool
+        Whether it looks at ``charge.time_to_dead_centre``, which is right where strokes either way
+        last equally long: an engine with one cylinder is refused.
     """
 
     slot = "ignition"
     is_timed: ClassVar[bool] = False
+    foresees_dead_centre: ClassVar[bool] = False
     compiled = ("rate", "lights_at_dead_centre")
     optional = ("lights_at_dead_centre",)
     at_every_step = ("rate",)

@@ -195,7 +195,11 @@ class SparkBeforeDeadCentre(Ignition):
 
     No crank tells where the dead centre will be. Counted is from the last one, as if the stroke
     were to last as long as the one before it; in a steady engine with two equal cylinders it does.
-    A dead centre foreseen nearer than `advance` as the ports close has the spark at once.
+    Where the strokes either way differ by more than 1 %, ``run.range_exits`` says so; an engine
+    with one cylinder, whose strokes always do, is refused. A dead centre foreseen nearer than
+    `advance` as the ports close has the spark at once. A piston that turns before the spark leaves
+    its charge unlit, so engines that fire unevenly may stay so with late sparks: in the thesis'
+    base case with less than some 1 ms.
 
     Parameters
     ----------
@@ -204,6 +208,8 @@ class SparkBeforeDeadCentre(Ignition):
     """
 
     is_timed: ClassVar[bool] = True
+    foresees_dead_centre: ClassVar[bool] = True
+    valid_for = (Validity("stroke_ratio", 0.99, 1.01, "strokes either way are alike"),)
 
     advance: float = quantity("s", default=1e-3, low=0, usual=(1e-5, 0.2))
 

@@ -20,6 +20,7 @@ VALIDITY_UNITS = {
     "equivalence_ratio": "-",
     "burnt_share": "-",
     "air_fuel_ratio": "-",
+    "stroke_ratio": "-",
 }
 #: Part of what an ignition integral comes to from which on its law counts as at work: what is
 #: added before, by cold gas, decides nothing.
@@ -126,6 +127,9 @@ def _values(
         )
     if quantity == "burnt_share":
         return history["burnt"][:, side] / history["mass"][:, side]
+    if quantity == "stroke_ratio":
+        inward = strokes["direction"] == (-1.0, 1.0)[side]
+        return float(strokes["duration"][inward].sum() / strokes["duration"][~inward].sum())
     cylinder: Any = engine.chambers[side]
     if quantity == "equivalence_ratio":
         return float(cylinder.equivalence_ratio)
