@@ -4,6 +4,7 @@ import pytest
 
 from saleg import fuels
 from saleg.fuels import RealFuel
+from saleg.fuels.species import MOLAR_GAS_CONSTANT, all_species
 
 FUELS = [getattr(fuels, name) for name in fuels.__all__]
 FUELS = [fuel for fuel in FUELS if isinstance(fuel, RealFuel)]
@@ -42,3 +43,13 @@ def cantera_gas(moles):
     gas = cantera.Solution(thermo="ideal-gas", species=wanted)
     gas.X = {SPECIES[name]: amount for name, amount in moles.items()}
     return cantera, gas
+
+
+def energy(moles, T):
+    """Internal energy of a composition, formation included [J]: the polynomials, written out."""
+    total = 0.0
+    for name, amount in moles.items():
+        a = all_species()[name].low if T < 1000.0 else all_species()[name].high
+        enthalpy = sum(a[n] * T ** (n + 1) / (n + 1) for n in range(5)) + a[5]
+        total += amount * MOLAR_GAS_CONSTANT * (enthalpy - T)
+    return total

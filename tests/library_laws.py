@@ -31,6 +31,8 @@ LAWS = [
     laws.CompleteCombustion(),
     laws.CompletenessByRatio(),
     laws.InstantExchange(0.3),
+    laws.PortMixing(),
+    laws.DirectInjection(latent_heat=3e5),
     laws.LinearSprings(30e3),
     laws.ProgressiveSprings(),
     laws.PreloadedSprings(),

@@ -11,7 +11,7 @@ IMAGES = ROOT / "docs" / "images"
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 TEXT = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
 #: Examples that draw nothing.
-WITHOUT_PICTURES = {"03_export.py", "14_control_in_time.py"}
+WITHOUT_PICTURES = {"03_export.py", "14_control_in_time.py", "19_direct_injection.py"}
 LARGEST = 150e3  # bytes
 
 

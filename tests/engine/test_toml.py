@@ -57,11 +57,19 @@ exchange = st.one_of(
     instances(saleg.laws.InstantExchange),
     instances(saleg.laws.PortFlow, intake_delay=st.floats(0.0, 9e-4)),
 )
+injection = st.one_of(
+    instances(saleg.laws.PortMixing),
+    instances(saleg.laws.DirectInjection, clearance=st.floats(1.1e-3, 1.9e-3)),
+)
 plenum = st.just(saleg.laws.Plenum())  # a crankcase has to fit: tests/breathing
 chambers = st.one_of(
-    instances(Cylinder, **lengths, gas_exchange=exchange, supply=plenum),
+    instances(Cylinder, **lengths, gas_exchange=exchange, injection=injection, supply=plenum),
     *(
-        instances(kind, **{key: lengths[key] for key in ("half_stroke", "head_gap", "back_area")})
+        instances(
+            kind,
+            **{key: lengths[key] for key in ("half_stroke", "head_gap", "back_area")},
+            injection=injection,
+        )
         for kind in (SealedCylinder, BounceChamber)
     ),
 )

@@ -6,10 +6,9 @@ from scipy.optimize import brentq
 
 import saleg
 from agreement import assert_agree, assert_balanced
-from fuel_cases import BLENDS, FUELS, cantera_gas
+from fuel_cases import BLENDS, FUELS, cantera_gas, energy
 from saleg import fuels, laws, reference
 from saleg.fuels import mixtures
-from saleg.fuels.species import MOLAR_GAS_CONSTANT, all_species
 from saleg.laws import Parts
 
 BASE = saleg.machines.thesis_base().replace(
@@ -20,16 +19,6 @@ BASE = saleg.machines.thesis_base().replace(
         "right.ignition": laws.IgnitionAtDeadCentre(),
     }
 )
-
-
-def energy(moles, T):
-    """Internal energy of a composition, formation included [J]: the polynomials, written out."""
-    total = 0.0
-    for name, amount in moles.items():
-        a = all_species()[name].low if T < 1000.0 else all_species()[name].high
-        enthalpy = sum(a[n] * T ** (n + 1) / (n + 1) for n in range(5)) + a[5]
-        total += amount * MOLAR_GAS_CONSTANT * (enthalpy - T)
-    return total
 
 
 def burnt_at_constant_volume(fuel, ratio, T):

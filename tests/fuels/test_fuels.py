@@ -156,6 +156,15 @@ def test_a_gas_of_ones_own_stays(base):
     assert richer.left.gas_properties == fuels.hydrogen.charge(0.8, 1.0)
     own = engine.replace(**{"gas_properties.gas_constant": 300.0}, equivalence_ratio=0.8)
     assert own.left.gas_properties.gas_constant == 300.0
+    assert own.replace(equivalence_ratio=0.9).left.gas_properties == own.left.gas_properties
+
+
+def test_the_gas_goes_with_the_place_where_fuel_enters(base):
+    direct = laws.DirectInjection()
+    for follows in (False, True):
+        filled = fuels.fill(base, fuels.hydrogen, follows=follows).replace(injection=direct)
+        assert filled == fuels.fill(base.replace(injection=direct), fuels.hydrogen, follows=follows)
+        assert filled.left.gas_properties.gas_constant < 300.0  # air, and not a third hydrogen
 
 
 def test_a_gas_of_another_charge_is_told(base):

@@ -32,6 +32,7 @@ from saleg.laws import (
     NoLeak,
     NoMisfires,
     Plenum,
+    PortMixing,
     Wiebe,
 )
 from saleg.laws.base import CHAMBER_SLOTS, ENGINE_SLOTS
@@ -49,6 +50,7 @@ IDLE_LAWS: dict[str, Law] = {
     "heat_release": Wiebe(),
     "ignition": CFRIgnition(),
     "gas_exchange": InstantExchange(),
+    "injection": PortMixing(),
     "misfires": NoMisfires(),
     "completeness": CompleteCombustion(),
     "supply": Plenum(),

@@ -40,6 +40,8 @@ class Needs(NamedTuple):
         Position and velocity of the frame: it moves.
     composition : bool
         Whether the gas of a chamber changes with its composition.
+    injection : bool
+        Whether fuel is injected into a closed chamber.
     """
 
     motored_pressure: bool
@@ -47,6 +49,7 @@ class Needs(NamedTuple):
     chambers: frozenset[str] = frozenset()
     frame: bool = False
     composition: bool = False
+    injection: bool = False
 
     @classmethod
     def of(cls, classes: Sequence[type[Law]], motored_pressure: bool) -> Needs:
@@ -54,9 +57,11 @@ class Needs(NamedTuple):
         alternators = [law for law in classes if issubclass(law, Alternator)]
         has_rate = any(law.current_rate is not Alternator.current_rate for law in alternators)
         composition = any(getattr(law, "follows_composition", False) for law in classes)
+        injection = any(getattr(law, "is_direct", False) for law in classes)
         names = asked_for(classes)
         chambers = names.intersection(layout.CHAMBER_STATES)
-        return cls(motored_pressure, has_rate, chambers, "frame" in names, composition)
+        frame = "frame" in names
+        return cls(motored_pressure, has_rate, chambers, frame, composition, injection)
 
     @property
     def states(self) -> list[Stretch]:
@@ -95,6 +100,7 @@ class Needs(NamedTuple):
             f"MOTORED_PRESSURE_IS_WANTED = {self.motored_pressure}\n"
             f"CURRENT_IS_WANTED = {self.current}\n"
             f"COMPOSITION_IS_WANTED = {self.composition}\n"
+            f"INJECTION_IS_WANTED = {self.injection}\n"
             f"CONTENTS_ARE_WANTED = {'contents' in self.chambers}\n"
             f"WALL_TEMPERATURE_IS_WANTED = {'wall_temperature' in self.chambers}\n"
             f"CRANKCASE_IS_WANTED = {'crankcase' in self.chambers}\n"

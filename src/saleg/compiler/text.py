@@ -45,6 +45,7 @@ INTEGRATOR = (
     "peaks",
     "control",
     "charges",
+    "injection",
     "rows",
     "switch",
     "observe",

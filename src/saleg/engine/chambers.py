@@ -18,6 +18,7 @@ from saleg.laws import (
     NoLeak,
     NoMisfires,
     Plenum,
+    PortMixing,
     Wiebe,
 )
 from saleg.laws.base import (
@@ -28,6 +29,7 @@ from saleg.laws.base import (
     HeatRelease,
     HeatTransfer,
     Ignition,
+    Injection,
     Law,
     Leak,
     Misfires,
@@ -241,7 +243,7 @@ class CombustionChamber(GasChamber):
         1 if a charge that has not lit by its dead centre may still light itself later, while it is
         trapped; 0 if it may not [-].
     fuel : Fuel
-    heat_transfer, heat_release, ignition, completeness, gas_exchange, misfires : Law
+    heat_transfer, heat_release, ignition, completeness, gas_exchange, injection, misfires : Law
         The laws in the chamber's slots.
     """
 
@@ -255,6 +257,7 @@ class CombustionChamber(GasChamber):
     ignition: Ignition = field(default_factory=CFRIgnition)
     completeness: Completeness = field(default_factory=CompleteCombustion)
     gas_exchange: GasExchange = field(default_factory=InstantExchange)
+    injection: Injection = field(default_factory=PortMixing)
     misfires: Misfires = field(default_factory=NoMisfires)
 
 

@@ -42,7 +42,8 @@ def with_gas_of_charge(before: Any, after: Any) -> Any:
 def _followed(old: Any, new: Any) -> Any:
     """Gas of a changed chamber."""
     gas = new.gas_properties
-    if getattr(old, "gas_properties", None) != gas or not hasattr(old, "equivalence_ratio"):
+    known = _known_gas(old)
+    if known is None or known != gas:
         return gas
     ratio, share = gas.equivalence_ratio, gas.burnt_share
     if ratio == old.equivalence_ratio:
@@ -51,12 +52,25 @@ def _followed(old: Any, new: Any) -> Any:
         share = retained_share(new)
     if isinstance(ratio, Column) or isinstance(share, Column):
         raise TypeError("a gas is not one of columns")
-    known = as_float(ratio), as_float(share)
-    if known == (gas.equivalence_ratio, gas.burnt_share):
-        return gas
-    if None in known or not (0.0 <= ratio < float("inf") and 0.0 <= share <= 1.0):
+    numbers = as_float(ratio), as_float(share)
+    if None in numbers or not (0.0 <= ratio < float("inf") and 0.0 <= share <= 1.0):
         return gas  # `problems` names them
-    return gas.for_charge(ratio, share)
+    direct = _is_direct(new)
+    same = numbers == (gas.equivalence_ratio, gas.burnt_share) and direct == _is_direct(old)
+    if same or not _is_as_made(gas, old):
+        return gas
+    return gas.for_charge(*numbers, direct=direct)
+
+
+def _is_as_made(gas: ChargeGas, chamber: Any) -> bool:
+    """Whether nobody has changed the numbers of a gas since it was made."""
+    made = gas.for_charge(gas.equivalence_ratio, gas.burnt_share, direct=_is_direct(chamber))
+    return made == gas
+
+
+def _is_direct(chamber: Any) -> bool:
+    """Whether fuel is injected into the closed cylinder."""
+    return bool(getattr(chamber.injection, "is_direct", False))
 
 
 def retained_share(chamber: Any) -> Any:
@@ -86,7 +100,7 @@ def other_gases(engine: Any) -> Iterator[Problem]:
         gas = _known_gas(chamber)
         if gas is None or is_gas_of_charge(chamber):
             continue
-        own = gas.for_charge(chamber.equivalence_ratio, gas.burnt_share)
+        own = gas.for_charge(chamber.equivalence_ratio, gas.burnt_share, direct=_is_direct(chamber))
         more = 100.0 * (own.gas_constant / gas.gas_constant - 1.0)
         told = (
             f"gas_properties is the gas of {gas.equivalence_ratio:g}, with which a charge holds "

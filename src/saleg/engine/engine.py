@@ -29,6 +29,7 @@ from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine, SalegWarning
 from saleg.laws import (
     Crankcase,
+    DirectInjection,
     FixedFrame,
     Law,
     LinearLoad,
@@ -394,6 +395,7 @@ def lengths_fit(engine: Engine) -> Any:
     limits = (
         *_limits_of_flow(engine, most),
         *_limits_of_backs(engine),
+        *_limits_of_injection(engine, most),
         *_limits_of_composition(engine),
     )
     for _, _, good, _, _ in limits:
@@ -421,6 +423,7 @@ def _geometry_problems(engine: Engine) -> list[Problem]:
         limits = (
             *_limits_of_flow(engine, most),
             *_limits_of_backs(engine),
+            *_limits_of_injection(engine, most),
             *_limits_of_composition(engine),
             *_limits_of_foresight(engine),
         )
@@ -432,10 +435,9 @@ def _geometry_problems(engine: Engine) -> list[Problem]:
 
 
 def _has_numbers(chamber: Chamber) -> bool:
-    """Whether all that ports, crankcase and the back of the piston are made of are numbers."""
-    parts = [
-        getattr(chamber, slot) for slot in ("gas_exchange", "supply") if hasattr(chamber, slot)
-    ]
+    """Whether all of ports, crankcase, injection and the back of the piston are numbers."""
+    slots = "gas_exchange", "supply", "injection"
+    parts = [getattr(chamber, slot) for slot in slots if hasattr(chamber, slot)]
     kinds: list[Any] = [type(part) for part in parts]
     numbers = [
         getattr(part, item.name)
@@ -462,6 +464,20 @@ def _limits_of_backs(engine: Engine) -> Iterator[tuple[int, str, Any, str, str]]
             area, pressure = chamber.back_area, chamber.back_pressure  # type: ignore[attr-defined]
             kept = (area > 0.0) | (pressure == 0.0)
             yield side, "back_area", kept, "m^2", "must be > 0 with a back_pressure"
+
+
+def _limits_of_injection(engine: Engine, most: Any) -> Iterator[tuple[int, str, Any, str, str]]:
+    """Limits of direct injection, as :func:`_limits_of_flow` has them."""
+    for side, chamber in enumerate(engine.chambers):
+        if not isinstance(chamber, CombustionChamber) or not chamber.injection.is_direct:
+            continue
+        first, allowed = most, "must be > head_gap and < the maximum stroke"
+        if isinstance(chamber, Cylinder):
+            first, allowed = chamber.port_closing, "must be > head_gap and < port_closing"
+        place = chamber.injection.place
+        kept = (chamber.head_gap < place) & (place < first)
+        is_ours = isinstance(chamber.injection, DirectInjection)
+        yield side, "injection.clearance" if is_ours else "injection", kept, "m", allowed
 
 
 def _limits_of_composition(engine: Engine) -> Iterator[tuple[int, str, Any, str, str]]:

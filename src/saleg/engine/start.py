@@ -200,6 +200,9 @@ def contents(chamber: Any, displacement: float, burning: bool = False) -> Conten
     exponent = COMPRESSION_EXPONENT if _has_ports(chamber) else chamber.curve_exponent
     pressure = full.pressure * (1.0 if is_open else squeeze**exponent)
     lit = burning and not is_open
+    injection = chamber.injection
+    if injection.is_direct and not (lit or (not is_open and height <= injection.place)):
+        mass, fuel = mass - fuel, 0.0
     return Contents(is_open, lit, not is_open and not lit, pressure, mass, fuel, air, burnt)
 
 
@@ -233,7 +236,7 @@ def adiabatic_rise(chamber: Any, squeeze: float) -> float:
 
 
 def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
-    """Mass, fuel, air and burnt gas of the charge of a cylinder that runs steadily.
+    """Mass, fuel, air and burnt gas of the charge of a cylinder that runs steadily, all injected.
 
     Parameters
     ----------
@@ -252,14 +255,16 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
     burnt_per_fuel = (
         (1.0 + ratio) * burning_share(cylinder) * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
     )
-    gas, air_per_fuel = cylinder.gas_properties, ratio / phi
-    whole = 1.0 + air_per_fuel + burnt_per_fuel
+    gas, is_direct = cylinder.gas_properties, cylinder.injection.is_direct
+    # What the ports close on, over the fuel: with direct injection that comes later.
+    parts = (0.0 if is_direct else 1.0, ratio / phi, burnt_per_fuel)
+    whole = sum(parts)
     if gas.follows_composition:
-        parts = (1.0, air_per_fuel, burnt_per_fuel)
         constant = sum(part * R for part, R in zip(parts, gas.gas_constants, strict=True)) / whole
         mass *= gas.gas_constant / constant
     fuel = mass / whole
-    return mass, fuel, fuel * air_per_fuel, fuel * burnt_per_fuel
+    mass = mass + fuel if is_direct else mass
+    return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
 
 
 def burning_share(cylinder: Any) -> float:

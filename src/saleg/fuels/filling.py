@@ -29,7 +29,8 @@ def fill(
 ) -> Engine:
     """Engine whose cylinders run on a fuel.
 
-    Sets fuel, equivalence ratio and gas properties, and with them the fuel that a charge holds.
+    Sets fuel, equivalence ratio and gas properties, and with them the fuel that a charge holds. One
+    gas is, with direct injection, that of the air and of what is retained.
 
     Parameters
     ----------
@@ -119,7 +120,7 @@ def _filled(
     def at(ratio: float) -> Engine:
         values = {
             "fuel": fuel.fuel,
-            "gas_properties": gas(ratio, retained),
+            "gas_properties": gas(ratio, retained, direct=cylinder.injection.is_direct),
             "equivalence_ratio": float(ratio),
         }
         return engine.replace(**{f"{side}.{name}": value for name, value in values.items()})

@@ -97,7 +97,9 @@ class RealFuel:
         """The fuel of a cylinder."""
         return Fuel(self.lower_heating_value, self.air_fuel_ratio)
 
-    def charge(self, equivalence_ratio: float, burnt: float = 0.0) -> ChargeGas:
+    def charge(
+        self, equivalence_ratio: float, burnt: float = 0.0, *, direct: bool = False
+    ) -> ChargeGas:
         """Gas of fuel and air, and of what a charge before it has burnt to.
 
         Parameters
@@ -106,6 +108,8 @@ class RealFuel:
             Of the fresh charge, and of the one burnt [-].
         burnt : float
             Share of burnt gas by mass [-]: 0 for a fresh charge, 1 for nothing but burnt gas.
+        direct : bool
+            Whether the fuel is injected later: the fresh gas is air then.
 
         Returns
         -------
@@ -117,15 +121,19 @@ class RealFuel:
         FuelError
             If a number is out of range.
         """
-        return self._gas(ChargeGas, equivalence_ratio, burnt)
+        return self._gas(ChargeGas, equivalence_ratio, burnt, direct)
 
-    def burning_gas(self, equivalence_ratio: float, burnt: float = 0.0) -> BurningGas:
+    def burning_gas(
+        self, equivalence_ratio: float, burnt: float = 0.0, *, direct: bool = False
+    ) -> BurningGas:
         """Gas of this fuel, air and what they burn to, whose composition follows the combustion.
 
         Parameters
         ----------
         equivalence_ratio, burnt : float
             Of the charge a run starts with, as of :meth:`charge` [-].
+        direct : bool
+            Whether the fuel is injected later.
 
         Returns
         -------
@@ -137,9 +145,9 @@ class RealFuel:
         FuelError
             If a number is out of range.
         """
-        return self._gas(BurningGas, equivalence_ratio, burnt)
+        return self._gas(BurningGas, equivalence_ratio, burnt, direct)
 
-    def _gas(self, kind: type[_Gas], equivalence_ratio: Any, burnt: Any) -> _Gas:
+    def _gas(self, kind: type[_Gas], equivalence_ratio: Any, burnt: Any, direct: bool) -> _Gas:
         """Law of a kind for the gas of a charge."""
         ratio, share = as_float(equivalence_ratio), as_float(burnt)
         wrong = []
@@ -162,7 +170,7 @@ class RealFuel:
             burnt_high=burnt_gas.high,
             air_fuel_ratio=self.air_fuel_ratio,
         )
-        return parts.for_charge(ratio, share)
+        return parts.for_charge(ratio, share, direct=direct)
 
     def fresh(self, equivalence_ratio: float) -> dict[str, float]:
         """Molecules of fresh charge with the air of a mole of fuel [mol]."""

@@ -34,6 +34,7 @@ from saleg.kernel.needs import (
     COMPOSITION_IS_WANTED,
     CONTENTS_ARE_WANTED,
     CRANKCASE_IS_WANTED,
+    INJECTION_IS_WANTED,
     WALL_TEMPERATURE_IS_WANTED,
 )
 from saleg.kernel.slots import (
@@ -44,6 +45,7 @@ from saleg.kernel.slots import (
     gas_properties_gamma,
     gas_properties_heat_capacity_of,
     gas_properties_internal_energy,
+    injection_fuel_state,
     leak_area,
     leak_beyond,
     supply_inlet_area,
@@ -133,6 +135,23 @@ def energy_of(P, C, side, y, T):
     if follows(C, side):
         return gas_properties_energy_of(P, side, T, parts_of(y, side))
     return mass_of(C, side, y) * gas_properties_internal_energy(P, side, T)
+
+
+@inline
+def injects(C, side):
+    """Whether fuel is injected into a chamber once its ports are closed."""
+    return C[side].injection_place > 0.0
+
+
+@inline
+def enthalpy_of_fuel(P, C, side, fuel):
+    """Enthalpy that fuel brings along as it is injected [J]."""
+    c = C[side]
+    T, latent_heat = injection_fuel_state(P, side)
+    if follows(C, side):
+        vapour = gas_properties_energy_of(P, side, T, Parts(fuel, 0.0, 0.0))
+        return vapour + fuel * (c.fuel_constant * T - latent_heat)
+    return fuel * (enthalpy_at(P, side, T, c.gas_constant) - latent_heat)
 
 
 @inline
@@ -299,6 +318,8 @@ def chamber_flows(P, C, side, y, gas):
     # Compositions: of the supply with fuel metered to its air at the ports, of what leaves, of the
     # gas.
     metered = c.fuel_factor * c.equivalence_ratio_wanted * (1.0 - burnt_supply)
+    if INJECTION_IS_WANTED:
+        metered = where(injects(C, side), 0.0, metered)
     fuel_share = metered / (metered + c.air_fuel_ratio)
     burnt_share = (1.0 - fuel_share) * burnt_supply
     fuel_out, burnt_out, fresh_out = 0.0, 0.0, 0.0

@@ -11,6 +11,7 @@ from saleg.kernel.breathing import (
     gamma_of,
     has_crankcase,
     has_own_pressure,
+    injects,
     mass_gas_of,
     mass_of,
     weighted,
@@ -38,6 +39,7 @@ from saleg.kernel.layout import (
     THETA,
     X,
 )
+from saleg.kernel.needs import INJECTION_IS_WANTED
 from saleg.kernel.rhs import charge_of, gas_of
 from saleg.kernel.slots import (
     completeness_share,
@@ -113,15 +115,21 @@ def burn_at_once(P, E, C, side, y, T):
     wanted, cold = energy_of(P, C, side, y, T) + heat, mass_gas_of(C, side, y) * T
     burn_contents(P, E, C, side)
     put_contents(C, side, y)
+    y[THETA + side] += log(mass_gas_with(P, C, side, y, wanted, T) / cold)
+    y[N_STATE + HEAT_RELEASED + side] += heat
+
+
+@inline
+def mass_gas_with(P, C, side, y, energy, T):
+    """Mass times gas constant and temperature [J] with an internal energy; near T [K] at first."""
     hot, mass_gas = T, mass_gas_of(C, side, y)
     for _ in range(50):
-        excess = energy_of(P, C, side, y, hot) - wanted
+        excess = energy_of(P, C, side, y, hot) - energy
         change = excess * (gamma_of(P, C, side, y, hot) - 1.0) / mass_gas
         hot -= change
         if abs(change) <= 1e-15 * hot:
             break
-    y[THETA + side] += log(hot * mass_gas / cold)
-    y[N_STATE + HEAT_RELEASED + side] += heat
+    return hot * mass_gas
 
 
 @inline
@@ -160,12 +168,14 @@ def open_ports(P, E, C, side, y):
         c.fuel_factor = scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
         c.mode = OPEN
         c.armed = DISARMED
+        c.injection_due = 0.0
         y[IGNITION + side] = 0.0
         y[FRESH + side] = 0.0
         return
     before = internal_energy(P, C, side, y)
     c.mode = OPEN
     c.armed = DISARMED
+    c.injection_due = 0.0
     c.T_closing = c.intake_temperature
     y[IGNITION + side] = 0.0
     c.exhaust_energy += before - internal_energy(P, C, side, y)
@@ -221,6 +231,8 @@ def compose_charge(P, E, C, side, y, p, T):
     mass = p * volume / (c.gas_constant * T)
     wanted = c.equivalence_ratio_wanted
     wanted *= scatter_fuel_factor(P, c.charge_number + 1.0, 1.0 * side)
+    if INJECTION_IS_WANTED and injects(C, side):
+        wanted = 0.0
     fuel, air, burnt, fresh = metered(P, C, side, mass, wanted)
     if follows(C, side):  # what a volume holds depends on what it is
         for _ in range(MASS_ITERATIONS):
@@ -229,7 +241,7 @@ def compose_charge(P, E, C, side, y, p, T):
     c.fresh_fuel_energy += fresh * c.lower_heating_value
     c.exhaust_fuel_energy += (c.fuel + fresh - fuel) * c.lower_heating_value
     c.mass, c.fuel, c.air, c.burnt = mass, fuel, air, burnt
-    arm_charge(P, E, C, side, y, p, T, volume)
+    close_charge(P, E, C, side, y, p, T, volume)
     put_contents(C, side, y)
     y[THETA + side] = log(p) + G0 * log(clearance / c.half_stroke)
     y[MOTORED + side] = y[THETA + side]
@@ -248,20 +260,39 @@ def trap_charge(P, E, C, side, y):
     c = C[side]
     p, T = pressure_and_temperature(C, side, y)
     c.fresh = y[FRESH + side]
-    arm_charge(P, E, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
+    close_charge(P, E, C, side, y, p, T, c.area * clearance_of(C, side, y[X]))
     y[MOTORED + side] = y[THETA + side]
 
 
 @inline
-def arm_charge(P, E, C, side, y, p, T, volume):
+def close_charge(P, E, C, side, y, p, T, volume):
     """Take a charge for the one now trapped at a pressure, a temperature and a volume."""
+    c = C[side]
+    c.mode = CLOSED
+    c.spark_advance = c.next_spark_advance
+    c.charge_number += 1.0
+    if INJECTION_IS_WANTED and injects(C, side):
+        note_charge(E, C, side, p, T, volume)
+        c.trapped_mass, c.trapped_temperature = p * volume / (c.gas_constant * T), T
+        c.injection_due, c.armed, y[IGNITION + side] = 1.0, DISARMED, 0.0
+    else:
+        arm_charge(P, E, C, side, y, p, T, volume)
+
+
+@inline
+def note_charge(E, C, side, p, T, volume):
+    """Note the state a charge has as its ports close, or as its fuel is injected."""
     c = C[side]
     c.equivalence_ratio = c.fuel * c.air_fuel_ratio / max(c.air, 1e-300)
     c.p_closing, c.T_closing, c.V_closing = p, T, volume
     c.time_to_dead_centre = E.t_dead_centre + last_duration(E) - E.t
-    c.mode = CLOSED
-    c.spark_advance = c.next_spark_advance
-    c.charge_number += 1.0
+
+
+@inline
+def arm_charge(P, E, C, side, y, p, T, volume):
+    """Let a charge light from now on."""
+    note_charge(E, C, side, p, T, volume)
+    c = C[side]
     c.armed = ARMED if c.fuel > 0.0 else DISARMED
     if c.armed == ARMED and misfires_happens(P, side, c.charge_number) > 0.0:
         c.armed = FAILING

@@ -128,6 +128,7 @@ EVENT_HEAD_CONTACT = 6
 EVENT_CHARGE_RENEWAL = 7
 EVENT_MOTOR_ON = 8
 EVENT_MOTOR_OFF = 9
+EVENT_INJECTION = 10
 EVENT_NAMES = (
     "dead centre",
     "port closing",
@@ -139,6 +140,7 @@ EVENT_NAMES = (
     "charge renewal",
     "motor on",
     "motor off",
+    "injection",
 )
 
 # Who commands: nobody, the parts compiled into the kernel, an object of the caller's.
@@ -317,6 +319,12 @@ CHAMBER_RECORD = np.dtype(
     ]
     # Fuel metered to the coming charge over that commanded.
     + [("fuel_factor", np.float64)]
+    # Clearance at which fuel is injected into the closed chamber, 0 for none; whether that is to
+    # come; mass and temperature as the ports closed, of a charge that had none yet.
+    + [
+        (name, np.float64)
+        for name in ("injection_place", "injection_due", "trapped_mass", "trapped_temperature")
+    ]
 )
 
 #: One row per stroke, written at the dead centre that ends it. Values per side are left, right.

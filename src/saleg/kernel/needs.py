@@ -10,6 +10,8 @@ MOTORED_PRESSURE_IS_WANTED = True
 CURRENT_IS_WANTED = True
 # Whether the gas of a chamber changes with its composition.
 COMPOSITION_IS_WANTED = True
+# Whether fuel is injected into a closed chamber.
+INJECTION_IS_WANTED = True
 CONTENTS_ARE_WANTED = True
 WALL_TEMPERATURE_IS_WANTED = True
 CRANKCASE_IS_WANTED = True

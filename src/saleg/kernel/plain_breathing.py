@@ -316,7 +316,8 @@ def flow_through_ports(P, C, side, gas, inside, present, supply, burnt, dy):
     c = C[side]
     R = c.gas_constant
     intake_area, exhaust_area = gas_exchange_areas(P, side, gas.clearance - c.port)
-    wanted = c.fuel_factor * c.equivalence_ratio_wanted
+    mixes = c.injection_place == 0.0  # else no fuel comes through the ports
+    wanted = c.fuel_factor * c.equivalence_ratio_wanted if mixes else 0.0
     per_supplied = wanted / c.air_fuel_ratio * (1.0 - burnt)
     fuel = per_supplied / (1.0 + per_supplied)
     fresh = Shares(fuel, (1.0 - fuel) * burnt, 1.0)

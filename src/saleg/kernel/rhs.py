@@ -64,6 +64,7 @@ from saleg.kernel.needs import (
     CRANKCASE_IS_WANTED,
     CURRENT_IS_WANTED,
     FRAME_IS_WANTED,
+    INJECTION_IS_WANTED,
     MOTORED_PRESSURE_IS_WANTED,
     MOTORING_IS_POSSIBLE,
     WALL_TEMPERATURE_IS_WANTED,
@@ -420,11 +421,24 @@ def find_position(P, E, C, x):
     alternator = alternator_next_breakpoint(P, beyond, E.direction)
     nearest = inf
     left, right = port_breakpoint(P, E, C, LEFT, beyond), port_breakpoint(P, E, C, RIGHT, beyond)
+    if INJECTION_IS_WANTED:
+        left = E.direction * min(E.direction * left, way_to_injection(E, C, LEFT))
+        right = E.direction * min(E.direction * right, way_to_injection(E, C, RIGHT))
     for place in (spring, alternator, left, right):
         way = E.direction * (place - x)
         if slack < way < nearest:
             nearest = way
             E.x_breakpoint = place
+
+
+@inline
+def way_to_injection(E, C, side):
+    """Position of the injection to come, in the direction of motion [m]; infinite for none."""
+    c = C[side]
+    inward = c.sign * E.direction < 0.0
+    if inward and c.mode == CLOSED and c.injection_due > 0.0:
+        return E.direction * c.sign * (c.injection_place - c.half_stroke)
+    return inf
 
 
 @inline

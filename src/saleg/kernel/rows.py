@@ -1,6 +1,6 @@
 """Rows of strokes and events, as a run leaves them."""
 
-from saleg.kernel.breathing import breathes, follows
+from saleg.kernel.breathing import breathes, follows, injects
 from saleg.kernel.charges import burnt_mass, internal_energy
 from saleg.kernel.events import pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
@@ -36,7 +36,7 @@ from saleg.kernel.layout import (
     V,
     X,
 )
-from saleg.kernel.needs import CONTENTS_ARE_WANTED, FRAME_IS_WANTED
+from saleg.kernel.needs import CONTENTS_ARE_WANTED, FRAME_IS_WANTED, INJECTION_IS_WANTED
 from saleg.kernel.slots import frame_energy, springs_energy
 from saleg.laws.arguments import Motion
 
@@ -131,9 +131,12 @@ def write_passed(C, side, y, row):
     row.exhaust_energy[side] += y[ENTHALPY_OUT + side]
     row.fresh_mass[side] = c.fresh
     row.closing_mass[side] = c.p_closing * c.V_closing / (c.gas_constant * c.T_closing)
-    if follows(C, side):  # its mass does not change
-        row.closing_mass[side] = c.mass
     row.closing_temperature[side] = c.T_closing
+    if INJECTION_IS_WANTED and injects(C, side):
+        row.closing_mass[side] = c.trapped_mass
+        row.closing_temperature[side] = c.trapped_temperature
+    if follows(C, side):  # nothing leaks out of it
+        row.closing_mass[side] = c.mass
     row.supplied_mass[side] = y[SUPPLIED + side]
     row.expelled_mass[side] = y[EXPELLED + side]
     row.expelled_fresh[side] = y[EXPELLED_FRESH + side]

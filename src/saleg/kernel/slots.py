@@ -149,6 +149,11 @@ def gas_exchange_next_breakpoint(P: Any, side: int, opening: float, direction: f
     return _chamber(P, side).gas_exchange.next_breakpoint(opening, direction)
 
 
+def injection_fuel_state(P: Any, side: int) -> tuple[float, float]:
+    """Temperature and latent heat of the fuel injected."""
+    return _chamber(P, side).injection.fuel_state()
+
+
 def leak_area(P: Any, side: int, gas: Gas) -> float:
     """Effective area of a leak."""
     return _chamber(P, side).leak.area(gas)

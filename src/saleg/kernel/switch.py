@@ -12,6 +12,7 @@ from saleg.kernel.charges import (
     renew_charge,
 )
 from saleg.kernel.control import ask, obey
+from saleg.kernel.injection import inject, injection_is_due
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
     ARMED,
@@ -27,6 +28,7 @@ from saleg.kernel.layout import (
     EVENT_END_OF_COMBUSTION,
     EVENT_HEAD_CONTACT,
     EVENT_IGNITION,
+    EVENT_INJECTION,
     EVENT_MISFIRE,
     EVENT_MOTOR_OFF,
     EVENT_MOTOR_ON,
@@ -44,7 +46,7 @@ from saleg.kernel.layout import (
     UNCONTROLLED,
     X,
 )
-from saleg.kernel.needs import CONTENTS_ARE_WANTED
+from saleg.kernel.needs import CONTENTS_ARE_WANTED, INJECTION_IS_WANTED
 from saleg.kernel.rhs import charge_of, refresh
 from saleg.kernel.rows import record_event, supplied_energy, write_stroke
 from saleg.kernel.slots import (
@@ -115,6 +117,8 @@ def is_due(E, C, side, t, y):
     breaks = (c.mode == BURNING) & (t >= c.t_breakpoint)
     changes = (c.renewal_due > 0.0) | misfires(E, C, side) | ports_due(E, C, side, y)
     lights = (c.mode == CLOSED) & (c.armed > DISARMED) & (y[IGNITION + side] >= 1.0)
+    if INJECTION_IS_WANTED:
+        changes = changes | injection_is_due(E, C, side, y)
     return breaks | changes | lights
 
 
@@ -131,6 +135,8 @@ def change_due(P, E, C, side, y):
         if lit and ignition_lights_at_dead_centre(P, side, charge_of(E, C, side, y)) > 0.0:
             return EVENT_IGNITION
         return EVENT_MISFIRE
+    if INJECTION_IS_WANTED and injection_is_due(E, C, side, y):
+        return EVENT_INJECTION
     if c.mode == CLOSED and c.armed > DISARMED and y[IGNITION + side] >= 1.0:
         return EVENT_IGNITION
     if ports_due(E, C, side, y):
@@ -150,6 +156,8 @@ def change_mode(P, E, C, O, side, y, kind):
             y[IGNITION + side] = 0.0
     elif kind == EVENT_IGNITION:
         ignite(P, E, C, side, y, O.motored)
+    elif INJECTION_IS_WANTED and kind == EVENT_INJECTION:
+        inject(P, E, C, side, y)
     elif kind == EVENT_CHARGE_RENEWAL and C[side].curve_exponent > 0.0:
         renew_charge(P, E, C, side, y)
     elif kind == EVENT_CHARGE_RENEWAL:

@@ -32,6 +32,7 @@ from saleg.laws.base import (
     HeatRelease,
     HeatTransfer,
     Ignition,
+    Injection,
     Law,
     Leak,
     Misfires,
@@ -101,6 +102,7 @@ from saleg.laws.ignition import (
     SparkBeforeDeadCentre,
     TabulatedDelay,
 )
+from saleg.laws.injection import DirectInjection, PortMixing
 from saleg.laws.leaks import MakeUpValve, NoLeak, RingLeak
 from saleg.laws.misfires import NoMisfires, ScheduledMisfires
 from saleg.laws.scatter import CyclicVariability, NoScatter
@@ -148,6 +150,7 @@ __all__ = [
     "Crankcase",
     "CyclicVariability",
     "DeadCentreRegulator",
+    "DirectInjection",
     "DoubleWiebe",
     "Drive",
     "EndStops",
@@ -174,6 +177,7 @@ __all__ = [
     "Ignition",
     "IgnitionAtDeadCentre",
     "IgnitionAtPressure",
+    "Injection",
     "Instant",
     "InstantExchange",
     "InstantRelease",
@@ -205,6 +209,7 @@ __all__ = [
     "Plenum",
     "PolytropicLoss",
     "PortFlow",
+    "PortMixing",
     "PositionSensor",
     "PositionSensorLaw",
     "PowerDemand",

@@ -56,14 +56,14 @@ class Charge(NamedTuple):
     equivalence_ratio : float
         Of all fuel to all air in the charge [-].
     p, T, V : float
-        State at port closing [Pa, K, m^3].
+        State at port closing; with direct injection, right after the injection [Pa, K, m^3].
     swept_volume : float
         Volume swept by the latest stroke [m^3].
     spark_advance : float
         Way by which a controller has the spark come earlier [m].
     time_to_dead_centre : float
-        Time from port closing to the dead centre, if the present stroke lasts as long as the one
-        before it did [s]; infinite while none has been.
+        Time from there to the dead centre, if the present stroke lasts as long as the one before it
+        did [s]; infinite while none has been.
     """
 
     mass: float

@@ -214,6 +214,30 @@ class Ignition(Law):
         return 0.0
 
 
+class Injection(Law):
+    """How fuel reaches the charge of a cylinder: with the fresh gas, or once its ports are closed.
+
+    Attributes
+    ----------
+    is_direct : bool
+        Whether it is injected into the closed cylinder.
+    """
+
+    slot = "injection"
+    compiled = ("fuel_state",)
+    optional = compiled
+    is_direct: ClassVar[bool] = False
+
+    @property
+    def place(self) -> float:
+        """Clearance between crown and head at which fuel is injected [m]; 0 if it is not."""
+        return 0.0
+
+    def fuel_state(self) -> tuple[float, float]:
+        """Temperature of the fuel injected [K] and latent heat of vaporisation there [J/kg]."""
+        return 300.0, 0.0
+
+
 class Misfires(Law):
     """Charges that do not light, whatever the ignition law says."""
 
@@ -510,6 +534,7 @@ CHAMBER_SLOTS: dict[str, type[Law]] = {
         HeatRelease,
         Ignition,
         GasExchange,
+        Injection,
         Misfires,
         Completeness,
         Leak,

@@ -233,23 +233,27 @@ class ChargeGas(MixtureGas):
         """Whether it says what charge it is the gas of; a file of earlier versions does not."""
         return self.air_fuel_ratio > 0.0
 
-    def for_charge(self, equivalence_ratio: float, burnt_share: float) -> Self:
+    def for_charge(
+        self, equivalence_ratio: float, burnt_share: float, *, direct: bool = False
+    ) -> Self:
         """The gas of another charge of the same fuel.
 
         Parameters
         ----------
         equivalence_ratio, burnt_share : float
             Of that charge [-].
+        direct : bool
+            Whether its fresh part is air alone, as the fuel is injected once the ports have closed.
         """
-        burning = min(equivalence_ratio, 1.0)
-        fresh = 1.0 - burnt_share
+        burning, mixed_in = min(equivalence_ratio, 1.0), 0.0 if direct else equivalence_ratio
+        whole = equivalence_ratio + self.air_fuel_ratio
+        fresh = (1.0 - burnt_share) * whole / (mixed_in + self.air_fuel_ratio)
         # Burnt gas of a lean charge has the air left, of a rich one the fuel left.
         masses = (
-            fresh * equivalence_ratio + burnt_share * (equivalence_ratio - burning),
+            fresh * mixed_in + burnt_share * (equivalence_ratio - burning),
             self.air_fuel_ratio * (fresh + burnt_share * (1.0 - burning)),
             burnt_share * burning * (1.0 + self.air_fuel_ratio),
         )
-        whole = equivalence_ratio + self.air_fuel_ratio
         constants = self.fuel_constant, self.air_constant, self.burnt_constant
         moles = [mass / whole * R for mass, R in zip(masses, constants, strict=True)]
         constant = sum(moles)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from saleg.engine import Chamber, Engine
+from saleg.engine import Chamber, CombustionChamber, Engine
 from saleg.kernel import layout
 from saleg.kernel.plain_breathing import (
     CRANKCASE_ENERGY,
@@ -51,6 +51,15 @@ def energy_held(chamber: Chamber, c: ChamberState, T: float) -> float:
     return gas.energy_of(T, Parts(c.fuel, c.air, c.burnt))
 
 
+def specific_enthalpy_of_fuel(chamber: CombustionChamber) -> float:
+    """Specific enthalpy of fuel as it is injected [J/kg]: of its vapour, less its latent heat."""
+    T, latent_heat = chamber.injection.fuel_state()
+    gas = chamber.gas_properties
+    if not gas.follows_composition:
+        return gas.internal_energy(T) + gas.gas_constant * T - latent_heat
+    return gas.energy_of(T, Parts(1.0, 0.0, 0.0)) + gas.gas_constants[0] * T - latent_heat
+
+
 def put_state(
     chamber: Chamber, c: ChamberState, y: np.ndarray, side: int, p: float, T: float
 ) -> None:
@@ -90,7 +99,8 @@ def write_passed(c: ChamberState, y: np.ndarray, side: int, row: Any) -> None:
     row["exhaust_energy"][side] += y[layout.ENTHALPY_OUT + side]
     row["fresh_mass"][side] = c.fresh
     row["closing_mass"][side] = c.mass_trapped
-    row["closing_temperature"][side] = c.T_closing
+    direct = c.injection_place > 0.0
+    row["closing_temperature"][side] = c.trapped_temperature if direct else c.T_closing
     row["supplied_mass"][side] = y[layout.SUPPLIED + side]
     row["expelled_mass"][side] = y[layout.EXPELLED + side]
     row["expelled_fresh"][side] = y[layout.EXPELLED_FRESH + side]

@@ -28,9 +28,11 @@ from saleg.kernel.plain_rhs import (
 )
 from saleg.laws.arguments import Charge, Gas, Motion, Stroke
 from saleg.reference.contents import (
+    energy_held,
     fill,
     put_masses,
     put_state,
+    specific_enthalpy_of_fuel,
     supplied_energy,
     take_contents,
     write_passed,
@@ -221,6 +223,7 @@ class RunningEngine:
         due = {
             layout.EVENT_END_OF_COMBUSTION: (self._has_burnt, self.end_combustion),
             layout.EVENT_CHARGE_RENEWAL: (self.renewal_due.__contains__, self.renew_charge),
+            layout.EVENT_INJECTION: (self._is_injecting, self.inject),
             layout.EVENT_IGNITION: (self._is_lit, self.ignite),
             layout.EVENT_MISFIRE: (self._has_misfired, self.misfire),
             layout.EVENT_PORT_CLOSING: (self._is_closing, self.close_ports),
@@ -260,6 +263,17 @@ class RunningEngine:
     def _is_opening(self, side: int) -> bool:
         reached = self.beyond_port(side) >= -SLACK * self.chambers[side].half_stroke
         return self.chambers[side].mode != layout.OPEN and self.is_expanding(side) and reached
+
+    def injection_comes(self, side: int) -> bool:
+        """Whether fuel is injected into a chamber on its way in."""
+        c = self.chambers[side]
+        inward = self.machine.direction != 0.0 and not self.is_expanding(side)
+        return c.injection_due > 0.0 and c.mode == layout.CLOSED and inward
+
+    def _is_injecting(self, side: int) -> bool:
+        c = self.chambers[side]
+        reached = self.clearance(side) - c.injection_place <= CORNER_SLACK * c.half_stroke
+        return self.injection_comes(side) and reached
 
     def misfire(self, side: int) -> None:
         """The piston has turned before the charge lit: it no longer may, or only late."""
@@ -332,7 +346,7 @@ class RunningEngine:
         before = self.internal_energy(side)
         if c.mode == layout.BURNING:
             self.end_combustion(side)
-        c.mode, c.armed = layout.OPEN, 0.0
+        c.mode, c.armed, c.injection_due = layout.OPEN, 0.0, 0.0
         self.y[INTEGRAL + side] = 0.0
         c.fuel_factor = self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
         if c.by_flow:
@@ -397,6 +411,8 @@ class RunningEngine:
         assert isinstance(chamber, CombustionChamber)
         wanted = chamber.equivalence_ratio
         wanted *= self.engine.scatter.fuel_factor(c.number + 1.0, float(side))
+        if c.injection_place > 0.0:
+            wanted = 0.0
         return chamber.gas_exchange.charge(
             mass, c.fuel, c.air, c.burnt, wanted, chamber.fuel.air_fuel_ratio
         )
@@ -415,6 +431,44 @@ class RunningEngine:
 
     def _trap(self, side: int, p: float, T: float) -> None:
         """Take what stands in a chamber for its charge from now on."""
+        c = self.chambers[side]
+        c.mode, c.number = layout.CLOSED, c.number + 1.0
+        self._note(side, p, T)
+        if c.injection_place > 0.0:
+            c.trapped, c.trapped_temperature = p * c.V_closing / (c.gas_constant * T), T
+            c.injection_due, c.armed, self.y[INTEGRAL + side] = 1.0, layout.DISARMED, 0.0
+        else:
+            self._arm(side)
+
+    def inject(self, side: int) -> None:
+        """Add the fuel that the air is to have: masses and energies before and after are equal."""
+        from scipy.optimize import brentq
+
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, CombustionChamber)
+        T, pressure = self.temperature(side), self.pressure(side)
+        ratio = chamber.equivalence_ratio * self.engine.scatter.fuel_factor(c.number, float(side))
+        fuel = max(ratio * c.air / chamber.fuel.air_fuel_ratio - c.fuel, 0.0)
+        before, moles = energy_held(chamber, c, T), c.mass * c.constant_now
+        brought = fuel * specific_enthalpy_of_fuel(chamber)
+        c.fuel, c.mass, c.injection_due = c.fuel + fuel, c.mass + fuel, 0.0
+        mixed = brentq(
+            lambda mixed: energy_held(chamber, c, mixed) - before - brought,
+            0.2 * T,
+            2.0 * T,
+            xtol=1e-12,
+            rtol=1e-15,
+        )
+        p = pressure * c.mass * c.constant_now * mixed / (moles * T)
+        put_state(chamber, c, self.y, side, p, mixed)
+        totals = self.totals[side]
+        totals.fresh_fuel_energy += fuel * chamber.fuel.lower_heating_value
+        totals.exhaust_energy -= brought
+        self._note(side, p, mixed)
+        self._arm(side)
+
+    def _note(self, side: int, p: float, T: float) -> None:
+        """Note the state a charge has as its ports close, or as its fuel is injected."""
         c, chamber = self.chambers[side], self.engine.chambers[side]
         assert isinstance(chamber, CombustionChamber)
         ratio = chamber.fuel.air_fuel_ratio
@@ -423,8 +477,12 @@ class RunningEngine:
         speed = self.machine.mean_piston_speed
         lasts = self.machine.stroke / speed if speed > 0.0 else math.inf
         c.time_to_dead_centre = self.t_dead_centre + lasts - self.t
-        c.number += 1.0
-        c.mode, c.armed = layout.CLOSED, layout.ARMED if c.fuel > 0.0 else layout.DISARMED
+
+    def _arm(self, side: int) -> None:
+        """Let a charge light from now on."""
+        c, chamber = self.chambers[side], self.engine.chambers[side]
+        assert isinstance(chamber, CombustionChamber)
+        c.armed = layout.ARMED if c.fuel > 0.0 else layout.DISARMED
         if c.armed == layout.ARMED and chamber.misfires.happens(c.number) > 0.0:
             c.armed = layout.FAILING
         factor = self.engine.scatter.delay_factor(c.number, float(side))

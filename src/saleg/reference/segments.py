@@ -174,7 +174,7 @@ class Event:
     direction : float
         -1 if it falls, 1 if it rises.
     kind : str
-        "dead centre", "port", "corner", "ignition" or "head".
+        "dead centre", "port", "corner", "injection", "ignition" or "head".
     side : int
     """
 
@@ -210,6 +210,8 @@ def possible_events(running: RunningEngine) -> list[Event]:
         corner = running.next_corner(side)
         if math.isfinite(corner):
             events.append(Event(_beyond(c, corner), direction * c.sign, "corner", side))
+        if running.injection_comes(side):
+            events.append(Event(_beyond(c, c.injection_place), -1.0, "injection", side))
         if c.armed > layout.DISARMED:
             events.append(Event(_unlit(side), 1.0, "ignition", side))
         closes = not isinstance(chamber, OpenEnd)
@@ -303,7 +305,7 @@ def land(running: RunningEngine, event: Event) -> None:
         running.y[INTEGRAL + event.side] = 1.0
     elif event.kind == "port":
         running.y[POSITION] -= running.chambers[event.side].sign * running.beyond_port(event.side)
-    elif event.kind == "corner":
+    elif event.kind in ("corner", "injection"):
         c = running.chambers[event.side]
         running.y[POSITION] -= c.sign * event.value(running.y)
 

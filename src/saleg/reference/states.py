@@ -91,6 +91,11 @@ class ChamberState:
         Fuel metered to the coming charge over that commanded [-].
     mass_lit, fresh : float
         Mass of the charge when it was lit, and fresh gas in it when it was trapped [kg].
+    injection_place, injection_due : float
+        Clearance at which fuel is injected into the closed chamber [m], 0 for none; 1 if that is to
+        come, else 0.
+    trapped, trapped_temperature : float
+        Mass and temperature as the ports closed, of a charge that had no fuel yet [kg, K].
     """
 
     sign: float
@@ -133,6 +138,10 @@ class ChamberState:
     fuel_constant: float = 0.0
     air_constant: float = 0.0
     burnt_constant: float = 0.0
+    injection_place: float = 0.0
+    injection_due: float = 0.0
+    trapped: float = 0.0
+    trapped_temperature: float = 0.0
 
     @property
     def constant_now(self) -> float:
@@ -145,8 +154,10 @@ class ChamberState:
     @property
     def mass_trapped(self) -> float:
         """Mass of the charge as its ports closed [kg]."""
-        if self.follows > 0.0:  # none comes or goes
+        if self.follows > 0.0:  # none leaks
             return self.mass
+        if self.injection_place > 0.0:
+            return self.trapped
         return self.p_closing * self.V_closing / (self.gas_constant * self.T_closing)
 
 
@@ -227,6 +238,9 @@ def _chamber_state(chamber: GasChamber, held: Contents, sign: float, x: float) -
         armed=float(held.armed and held.fuel > 0.0),
     )
     _let_breathe(state, chamber, x)
+    closed = held.armed and not held.is_open and state.injection_place > 0.0
+    beyond = chamber.half_stroke + sign * x - state.injection_place
+    state.injection_due = float(closed and beyond > 0.0)
     return state
 
 
@@ -246,6 +260,8 @@ def _let_breathe(c: ChamberState, chamber: Chamber, x: float) -> None:
         c.equivalence_ratio_wanted = chamber.equivalence_ratio
         c.air_fuel_ratio = chamber.fuel.air_fuel_ratio
         c.lower_heating_value = chamber.fuel.lower_heating_value
+        c.injection_place = chamber.injection.place
+        c.trapped, c.trapped_temperature = c.mass - c.fuel, c.T_closing
     if c.by_flow and c.mode == layout.OPEN:  # filled at the intake's state as far as it is open
         filled = (c.half_stroke + c.sign * x) / c.port
         c.mass, c.fuel, c.burnt = c.mass * filled, c.fuel * filled, c.burnt * filled

@@ -291,6 +291,7 @@ def _fill_chamber(c: Any, chamber: Chamber, area: float, sign: float) -> None:
         c.air_fuel_ratio = chamber.fuel.air_fuel_ratio
         c.combustion_efficiency = chamber.combustion_efficiency
         c.late_ignition = chamber.late_ignition
+        c.injection_place = chamber.injection.place
 
 
 def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> None:
@@ -302,6 +303,10 @@ def _fill_contents(c: Any, contents: Contents, y: list[float], side: int) -> Non
     if c.curve_exponent > 0.0:  # its charge is closed where it stands
         c.p_closing, c.V_closing = contents.pressure, c.area * clearance
         c.T_closing = c.p_closing * c.V_closing / (c.mass * c.gas_constant)
+    if c.injection_place > 0.0:
+        closed = contents.armed and not contents.is_open
+        c.injection_due = float(closed and clearance > c.injection_place)
+        c.trapped_mass, c.trapped_temperature = contents.mass - contents.fuel, c.T_closing
     if c.by_flow and contents.is_open:  # at the state of the intake, as far as the piston is out
         share = clearance / c.port
         c.mass, c.fuel, c.air, c.burnt = (part * share for part in (c.mass, c.fuel, c.air, c.burnt))
