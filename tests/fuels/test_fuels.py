@@ -167,6 +167,30 @@ def test_the_gas_goes_with_the_place_where_fuel_enters(base):
         assert filled.left.gas_properties.gas_constant < 300.0  # air, and not a third hydrogen
 
 
+def test_a_filled_engine_survives_a_file(base, tmp_path):
+    """And goes on with its gas; one of a file that knows no charge stays as it is."""
+    path = tmp_path / "engine.toml"
+    for follows in (False, True):
+        engine = fuels.fill(base, fuels.hydrogen, equivalence_ratio=0.3, follows=follows)
+        path.write_text(engine.to_toml())
+        read = saleg.Engine.from_toml(path)
+        assert read == engine
+        assert read.replace(equivalence_ratio=0.5) == engine.replace(equivalence_ratio=0.5)
+    earlier = base.replace(gas_properties=laws.BurningGas())
+    assert "air_fuel_ratio" not in earlier.to_toml().partition("gas_properties")[2][:2000]
+    richer = earlier.replace(equivalence_ratio=0.9)
+    assert richer.left.gas_properties == laws.BurningGas()
+    assert richer.unusual() == richer.problems() == []
+
+
+def test_the_text_of_a_file_is_no_path_and_a_name_no_fuel(base):
+    with pytest.raises(saleg.EngineFileError, match="must be the path of a file") as caught:
+        saleg.Engine.from_toml(base.to_toml())
+    assert len(str(caught.value)) < 200
+    with pytest.raises(saleg.InvalidEngine, match=r"must be a Fuel; saleg\.fuels\.fill sets"):
+        base.replace(fuel="hydrogen").validate()
+
+
 def test_a_gas_of_another_charge_is_told(base):
     """What holds 16 % less hydrogen at phi 0.4, by the molar masses, than the gas of phi 1 says."""
     engine = fuels.fill(base.replace(egr=0.0), fuels.hydrogen, equivalence_ratio=1.0)

@@ -382,7 +382,8 @@ def _slot_problems(engine: Engine) -> list[Problem]:
 def _kind_problem(value: Any, kind: type, path: str) -> list[Problem]:
     if isinstance(value, kind):
         return []
-    return [Problem(path, value, "-", f"must be a {kind.__name__}")]
+    hint = "; saleg.fuels.fill sets fuel and gas" if kind is Fuel else ""
+    return [Problem(path, value, "-", f"must be a {kind.__name__}{hint}")]
 
 
 def lengths_fit(engine: Engine) -> Any:

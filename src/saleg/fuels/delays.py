@@ -178,7 +178,7 @@ def _problems(fuel: Any, mechanism: Any, grids: dict[str, Any], species: Any) ->
         wrong.append(f"species = {shown(species)}: must map molecules to names in the mechanism")
         return wrong
     for key, name in (species or {}).items():
-        if key not in FORMULAS:
+        if key not in FORMULAS and key not in all_species():
             wrong.append(f"species: no molecule {shown(key)}{nearest(str(key), FORMULAS)}")
         if not isinstance(name, str):
             wrong.append(f"species: {shown(key)} = {shown(name)}: must be a name in the mechanism")
