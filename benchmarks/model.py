@@ -26,14 +26,14 @@ L, BORE, D_PORT = E.get("half_stroke"), E.get("bore"), E.get("port_closing")
 AREA = math.pi * BORE**2 / 4.0
 M, STIFFNESS, C_F = E.get("moving_mass"), E.get("spring.stiffness"), E.get("friction.coefficient")
 C_A, ETA, GAIN = E.alternator.load_constant, E.alternator.efficiency, E.alternator.regulator_gain
-P_IN, T_IN, T_W = E.get("intake.pressure"), E.get("intake.temperature"), E.get("wall_temperature")
+T_IN, T_W = E.get("intake.temperature"), E.get("wall_temperature")
 R = E.left.gas_properties.gas_constant
 H_A = E.left.heat_transfer.a
 WIEBE_A, C_D = E.left.heat_release.a, E.left.heat_release.combustion_duration
 CFR_A, CFR_B, CFR_N = E.left.ignition.A, E.left.ignition.b, E.left.ignition.n
 CFR_X, CFR_K = E.left.ignition.x, E.left.ignition.k
 AFR, LHV = E.left.fuel.air_fuel_ratio, E.left.fuel.lower_heating_value
-ETA_C, EGR, PHI_WANTED = E.left.combustion_efficiency, E.get("egr"), E.get("equivalence_ratio")
+ETA_C = E.left.combustion_efficiency
 T_HOLD = 2500.0
 PORT = L - D_PORT
 
@@ -70,12 +70,20 @@ def rhs(t, y, par, dy):
 
 
 class Engine:
-    """State, modes and masses; what happens at an event."""
+    """State, modes and masses; what happens at an event.
 
-    def __init__(self):
+    Parameters
+    ----------
+    engine : saleg.Engine
+        The base case, or one of its geometry and laws with other numbers.
+    """
+
+    def __init__(self, engine=E):
         from saleg.simulation.initial_state import prepare
 
-        state = prepare(E)
+        state = prepare(engine)
+        self.compose = engine.left.gas_exchange.charge
+        self.p_in, self.phi = engine.get("intake.pressure"), engine.get("equivalence_ratio")
         c, e = state.chambers, state.engine[0]
         self.t = 0.0
         self.y = np.zeros(N)
@@ -84,7 +92,7 @@ class Engine:
             height = L + (1 - 2 * side) * state.y[0]
             closed = c["mode"][side] > 0
             self.y[P + side] = math.exp(state.y[2 + side] - 1.33 * math.log(height / L))
-            self.y[P + side] = self.y[P + side] if closed else P_IN
+            self.y[P + side] = self.y[P + side] if closed else self.p_in
         self.par = np.zeros(N_PARAMETERS)
         self.par[CLOSED : CLOSED + 2] = c["mode"] > 0
         self.par[BURNING : BURNING + 2] = c["mode"] == 2
@@ -143,7 +151,7 @@ class Engine:
             if self.par[BURNING + side]:
                 self.burn(side, (self.t - self.par[T_IGNITION + side]) / C_D)
             self.par[CLOSED + side] = self.par[ARMED + side] = 0.0
-            self.y[P + side], self.y[K + side] = P_IN, 0.0
+            self.y[P + side], self.y[K + side] = self.p_in, 0.0
         else:
             self.charge(side)
 
@@ -156,13 +164,12 @@ class Engine:
 
     def charge(self, side):
         """Fresh charge at port closing."""
-        mass = P_IN * AREA * D_PORT / (R * T_IN)
-        exchange = E.left.gas_exchange.charge
-        fuel, air, gas, _ = exchange(mass, *self.masses[side], PHI_WANTED, AFR)
+        mass = self.p_in * AREA * D_PORT / (R * T_IN)
+        fuel, air, gas, _ = self.compose(mass, *self.masses[side], self.phi, AFR)
         self.masses[side] = [fuel, air, gas]
         self.par[CLOSED + side] = self.par[ARMED + side] = 1.0
         self.par[MASS + side], self.par[PHI + side] = mass, fuel * AFR / air
-        self.y[P + side], self.y[K + side] = P_IN, 0.0
+        self.y[P + side], self.y[K + side] = self.p_in, 0.0
 
     def turn(self):
         """Dead centre: regulator, totals, and the way back."""

@@ -4,8 +4,8 @@
 
 Every solver is given the loosest of a row of tolerances at which frequency, stroke and electrical
 work of the last cycle come within the accuracy of the converged ones, and the peak pressure within
-five times that. Times are the best of some repeats, the same for all, and are of the integration
-with its start and its records, without reading figures off them; ratios are to saleg's.
+five times that. Times are of a processor, the best of some repeats in turns, and are of the
+integration with its start and its records, without reading figures off them; ratios are to saleg's.
 scikit-sundae and heyoka take part where installed. CVODE and scipy's solvers restart from Python at
 every event, some 470 times a second, which is part of what they cost here.
 """
@@ -16,6 +16,7 @@ import argparse
 import functools
 import importlib.util
 import itertools
+import math
 import os
 import platform
 import subprocess
@@ -30,7 +31,8 @@ import solvers
 import saleg
 
 #: Greatest resident memory of this very program; getrusage would count what started it.
-PEAK_MEMORY = """
+USED = """
+import time
 def peak_memory():
     lines = open("/proc/self/status").read().splitlines()
     return next(float(line.split()[1]) / 1024 for line in lines if line.startswith("VmHWM"))
@@ -63,14 +65,15 @@ def candidates():
     return found
 
 
-def best_time(function, repeats):
-    """Shortest of some runs [s]."""
-    times = []
+def best_times(functions, repeats):
+    """Shortest of some runs of each [s of a processor], in turns."""
+    best = dict.fromkeys(functions, math.inf)
     for _ in range(repeats):
-        start = time.perf_counter()
-        function()
-        times.append(time.perf_counter() - start)
-    return min(times)
+        for name, function in functions.items():
+            start = time.process_time()
+            function()
+            best[name] = min(best[name], time.process_time() - start)
+    return best
 
 
 def saleg_run(rtol, seconds):
@@ -96,34 +99,31 @@ def loosest(figures_at, wanted, accuracy):
 def compare(seconds, accuracy, repeats):
     """Rows of the comparison: name, tolerance, error, seconds."""
     wanted = figures(saleg.simulate(model.E, seconds, rtol=1e-12))
-    rows = []
     rtol, error = loosest(lambda r: figures(saleg_run(r, seconds)), wanted, accuracy)
-    rows.append(("saleg", rtol, error, best_time(lambda: saleg_run(rtol, seconds), repeats)))
+    tolerances, runs = {"saleg": (rtol, error)}, {"saleg": lambda: saleg_run(rtol, seconds)}
     for name, make in candidates().items():
         found = loosest(
             lambda r, make=make: model.run(make(r), seconds).figures(), wanted, accuracy
         )
-        if found is None:
-            rows.append((name, None, None, None))
-            continue
-        advance = make(found[0])
-        duration = best_time(lambda a=advance: model.run(a, seconds), repeats)
-        rows.append((name, *found, duration))
-    return rows
+        tolerances[name] = found or (None, None)
+        if found is not None:
+            runs[name] = functools.partial(model.run, make(found[0]), seconds)
+    best = best_times(runs, repeats)
+    return [(name, *found, best.get(name)) for name, found in tolerances.items()]
 
 
 def in_a_process(code, cache):
-    """Wall seconds and greatest memory [MB] of a fresh interpreter running some code."""
+    """Seconds of a processor and greatest memory [MB] of a fresh interpreter running some code."""
     env = {**os.environ, "SALEG_CACHE_DIR": cache}
-    start = time.perf_counter()
     out = subprocess.run(
-        [sys.executable, "-c", f"{code}\n{PEAK_MEMORY}\nprint(peak_memory())"],
+        [sys.executable, "-c", f"{code}\n{USED}\nprint(time.process_time(), peak_memory())"],
         env=env,
         check=True,
         capture_output=True,
         text=True,
     )
-    return time.perf_counter() - start, float(out.stdout.split()[-1])
+    spent, memory = out.stdout.split()[-2:]
+    return float(spent), float(memory)
 
 
 def start_up():
@@ -142,7 +142,7 @@ def start_up():
 def long_run_memory(cycles):
     """Growth of memory [MB] over a long run that keeps its last ten cycles."""
     code = (
-        f"{PEAK_MEMORY}\nimport saleg; e = saleg.machines.thesis_base();"
+        f"{USED}\nimport saleg; e = saleg.machines.thesis_base();"
         "saleg.simulate(e, 1.0, rtol=1e-5, keep_cycles=10); before = peak_memory();"
         f"r = saleg.simulate(e, {cycles / 46.97}, rtol=1e-5, keep_cycles=10);"
         "print(peak_memory() - before)"

@@ -91,15 +91,17 @@ def cvode_solver(method, rtol):
     return advance
 
 
-def heyoka_solver(rtol):
-    """Heyoka's Taylor method, its events found within the step; one integrator for all modes."""
+def heyoka_equations(mass=model.M, stiffness=model.STIFFNESS, friction=model.C_F, load=model.C_A):
+    """The model as expressions: its system, and what passes through zero at each event.
+
+    Every event that can ever come is among them, told apart by a parameter that switches it on.
+    """
     import heyoka as hk
 
-    hk.set_logger_level_error()
     names = hk.make_vars("x", "v", "pl", "pr", "kl", "kr", "w")
     x, v, ps, ks = names[0], names[1], names[2:4], names[4:6]
     par = hk.par
-    force = -2.0 * model.STIFFNESS * x - (model.C_F + par[WEIGHT] * model.C_A) * v
+    force = -2.0 * stiffness * x - (friction + par[WEIGHT] * load) * v
     pressure_rates, integral_rates = [], []
     for side, (p, _) in enumerate(zip(ps, ks, strict=True)):
         sign = 1.0 - 2.0 * side
@@ -119,25 +121,31 @@ def heyoka_solver(rtol):
         chemistry = hk.exp(-model.CFR_B * (p * 1e-3) ** model.CFR_N / T)
         scale = model.CFR_K / model.CFR_A * par[PHI + side] ** model.CFR_X
         integral_rates.append(par[ARMED + side] * scale * chemistry)
-    power = model.ETA * par[WEIGHT] * model.C_A * v * v
-    system = [(x, v), (v, force / model.M)]
+    power = model.ETA * par[WEIGHT] * load * v * v
+    system = [(x, v), (v, force / mass)]
     system += zip(ps, pressure_rates, strict=True)
     system += zip(ks, integral_rates, strict=True)
     system += [(names[6], power)]
-    # Every event that can ever come, told apart by a parameter that switches it on.
-    switch = model.N_PARAMETERS
     possible = [("turn", 0, v)]
     for side in range(2):
         possible.append(("port", side, x + (1 - 2 * side) * model.PORT))
         possible.append(("ignition", side, ks[side] - 1.0))
         possible.append(("peak", side, pressure_rates[side] * 1e-9))
-    kinds, functions = [], []
-    for kind, side, expression in possible:
-        on = par[switch + len(kinds)]
-        functions.append(hk.t_event(expression * on + (1.0 - on)))
-        kinds.append((kind, side))
+    kinds = [(kind, side) for kind, side, _ in possible]
+    on = [par[model.N_PARAMETERS + n] for n in range(len(kinds))]
+    functions = [p[2] * switch + (1.0 - switch) for p, switch in zip(possible, on, strict=True)]
+    return system, kinds, functions
+
+
+def heyoka_solver(rtol):
+    """Heyoka's Taylor method, its events found within the step; one integrator for all modes."""
+    import heyoka as hk
+
+    hk.set_logger_level_error()
+    system, kinds, functions = heyoka_equations()
+    switch, events = model.N_PARAMETERS, [hk.t_event(function) for function in functions]
     integrator = hk.taylor_adaptive(
-        system, [0.0] * N, pars=[0.0] * (switch + len(kinds)), tol=rtol, t_events=functions
+        system, [0.0] * N, pars=[0.0] * (switch + len(kinds)), tol=rtol, t_events=events
     )
 
     def advance(engine, end, events):

@@ -1,10 +1,11 @@
 """Steady states: solved against waited for, one by one, together, in lanes, sweeps, threads.
 
     python benchmarks/steady.py [--designs 1000] [--repeats 5] [--agree 500] [--memory 100000]
-                                [--line 1000] [--grid 100] [--compile 1]
+                                [--line 1000] [--grid 100]
 
 Random designs vary the base case by a fifth. Waiting is 2.5 s of simulation with the same
-integrator at the same tolerance, as the thesis does it; both are timed in turns in one run.
+integrator at the same tolerance, as the thesis does it; both are timed in turns in one run. Times
+are of a processor but for grids, threads and processes, which need an idle machine.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ import os
 import platform
 import subprocess
 import sys
-import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -53,11 +53,11 @@ def designs(count, seed=0, spread=0.2):
         yield BASE.replace(**changes)
 
 
-def seconds(function):
-    """How long a call takes [s], and what it returns."""
-    start = time.perf_counter()
+def seconds(function, clock=time.process_time):
+    """How long a call takes [s of a processor, unless of the clock], and what it returns."""
+    start = clock()
     result = function()
-    return time.perf_counter() - start, result
+    return clock() - start, result
 
 
 def compare(engines):
@@ -153,7 +153,7 @@ def on_a_grid(points):
     table = sweep.grid({name: np.linspace(*pair, points) for name, pair in ends.items()})
     for multipliers in (False, True):
         run = partial(sweep.run, table, BASE, rtol=RTOL, multipliers=multipliers)
-        spent, found = seconds(run)
+        spent, found = seconds(run, time.perf_counter)
         print(
             f"{points} x {points} grid, multipliers {multipliers}: {spent:.1f} s, "
             f"{found.half_cycles.mean():.1f} half cycles, {(found.status == 'steady').sum()} steady"
@@ -172,32 +172,10 @@ def at_once(engines, repeats):
         best = dict.fromkeys(ways, np.inf)
         for _ in range(repeats):
             for name, how in ways.items():
-                best[name] = min(
-                    best[name], seconds(partial(saleg.steady_states, engines, **how))[0]
-                )
+                table = partial(saleg.steady_states, engines, **how)
+                best[name] = min(best[name], seconds(table, time.perf_counter)[0])
     each = ", ".join(f"{name} {1e3 * t / len(engines):.3f}" for name, t in best.items())
     print(f"{len(engines)} rows: {each} ms a row\n")
-
-
-def compilation():
-    """What compiling costs a process with an empty cache folder [s of a processor]."""
-    code = f"""
-import sys; sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
-import steady, time
-def spend(what, function):
-    start = time.process_time(); function(); print(what, f"{{time.process_time() - start:.1f}} s")
-some = list(steady.designs(3))
-spend("first simulate:", lambda: steady.saleg.simulate(steady.BASE, 0.1))
-spend("first steady_state after it:", lambda: steady.saleg.steady_state(steady.BASE))
-spend("first batch after it:", lambda: steady.batch(some, steady.RTOL, False))
-spend("first batch in lanes after it:", lambda: steady.batch(some, steady.RTOL, True))
-other = [one.replace(friction=steady.saleg.laws.ConstantFriction()) for one in some]
-spend("other laws:", lambda: steady.batch(other, steady.RTOL, False))
-spend("their lanes:", lambda: steady.batch(other, steady.RTOL, True))
-"""
-    with tempfile.TemporaryDirectory() as folder:
-        environment = {**os.environ, "SALEG_CACHE_DIR": folder}
-        subprocess.run([sys.executable, "-c", code], check=True, env=environment)
 
 
 def agreement(count):
@@ -243,7 +221,6 @@ def main():
     parser.add_argument("--memory", type=int, default=100_000, help="designs of the memory test")
     parser.add_argument("--line", type=int, default=1000, help="points of a sweep along a line")
     parser.add_argument("--grid", type=int, default=100, help="points of a grid in each direction")
-    parser.add_argument("--compile", type=int, default=1, help="whether to compile afresh, timed")
     options = parser.parse_args()
     machine = f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
     print(f"{machine}; Python {platform.python_version()}; saleg {saleg.__version__}\n")
@@ -257,8 +234,6 @@ def main():
     if options.grid:
         on_a_grid(options.grid)
     at_once(engines, options.repeats)
-    if options.compile:
-        compilation()
     if options.agree:
         agreement(options.agree)
     if options.memory:

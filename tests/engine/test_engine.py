@@ -181,7 +181,7 @@ def test_running_imports_neither_pandas_nor_matplotlib():
 def test_an_engine_says_its_laws_by_the_path_of_their_slot(base):
     for path, law in base.laws.items():
         assert base.get(path) is law
-    assert len(base.laws) == 2 * 10 + 5
+    assert len(base.laws) == 2 * 11 + 5
     bounce = saleg.BounceChamber(bore=0.06, half_stroke=0.1)
     assert list(bounce.laws) == ["gas_properties", "heat_transfer", "leak", "wall"]
 

@@ -61,6 +61,7 @@ ARGUMENTS = {
     "fresh_share": [(share,) for share in (-1e-9, 0.0, 0.4, 1.0)],
     "area": [(gas,) for gas in GASES],
     "beyond": [()],
+    "fuel_state": [()],
     "volume": [(displacement,) for displacement in (-0.05, 0.0, 0.08)],
     "piston_area": [()],
     "inlet_area": [(rise,) for rise in (-1e3, 0.0, 1e3, 1e5)],

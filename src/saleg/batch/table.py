@@ -144,7 +144,8 @@ def in_pieces(
     chunks = iter(lambda: list(itertools.islice(source, chunk)), [])
     pieces = (piece for piece in enumerate(chunks) if piece[0] not in done)
     with progress_bar(total, unit=" rows") as bar:
-        ready = _compiled_first(work, pieces, kernel_of)
+        alone = executor is None and workers == 1  # it races with nobody
+        ready = pieces if alone else _compiled_first(work, pieces, kernel_of)
         for number, columns in completed(work, ready, executor, workers):
             if bar is not None:
                 bar.update(len(columns["status"]))

@@ -26,6 +26,7 @@ from saleg.control.moments import (
     BusEnergy,
     StepResponse,
     bus_energy,
+    bus_energy_over_time,
     first_misfire,
     fuel_cuts,
     late_ignitions,
@@ -46,6 +47,7 @@ from saleg.control.running import (
     simulate_many,
 )
 from saleg.control.sensors import Sensors
+from saleg.control.tracking import trajectory_tracking
 
 __all__ = [
     "BusEnergy",
@@ -63,6 +65,7 @@ __all__ = [
     "Sensors",
     "StepResponse",
     "bus_energy",
+    "bus_energy_over_time",
     "demand_by_fuel",
     "demand_by_intake",
     "demand_by_load",
@@ -96,4 +99,5 @@ __all__ = [
     "simulate_many",
     "start_up",
     "step_response",
+    "trajectory_tracking",
 ]

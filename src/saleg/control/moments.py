@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,6 +11,10 @@ from saleg.checks import POSITIVE, a, checked
 from saleg.control.demand import Demand
 from saleg.kernel import layout
 from saleg.simulation.run import Run
+from saleg.simulation.settings import SettingsError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 class StepResponse(NamedTuple):
@@ -207,6 +211,42 @@ def bus_energy(run: Run) -> BusEnergy:
     energy = run.strokes["electrical_energy"]
     drawn, returned = -energy[energy < 0.0].sum(), energy[energy > 0.0].sum()
     return BusEnergy(float(drawn), float(returned))
+
+
+@checked(run=a(Run))
+def bus_energy_over_time(run: Run) -> pd.DataFrame:
+    """Energy that has passed the DC bus either way by every instant of a run, within strokes too.
+
+    Where a stroke draws in one place and returns in another, this counts both;
+    :func:`bus_energy` has what is left of them.
+
+    Parameters
+    ----------
+    run : Run
+        With its history, ``history=1``, whose ``electrical_power`` is integrated (trapezia).
+
+    Returns
+    -------
+    DataFrame
+        ``t`` [s], and ``drawn`` and ``returned`` since the first instant [J].
+
+    Raises
+    ------
+    SettingsError
+        If the run has no history.
+    """
+    import pandas as pd
+
+    rows = run.history_rows
+    if rows is None:
+        raise SettingsError("history: the energy within strokes takes a run with history=1")
+    steps, power = np.diff(rows["t"]), rows["electrical_power"]
+    columns = {"t": rows["t"]}
+    for name, flow in (("drawn", np.maximum(-power, 0.0)), ("returned", np.maximum(power, 0.0))):
+        columns[name] = np.append(0.0, np.cumsum(0.5 * steps * (flow[1:] + flow[:-1])))
+    table = pd.DataFrame(columns)
+    table.attrs["units"] = {"t": "s", "drawn": "J", "returned": "J"}
+    return table
 
 
 def _times(run: Run, mask: np.ndarray) -> list[tuple[float, float]]:

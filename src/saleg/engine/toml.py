@@ -47,7 +47,15 @@ SLOTS: dict[str, type] = {**CHAMBER_SLOTS, **ENGINE_SLOTS, "start": Start}
 #: Classes that laws derive from, and no laws themselves.
 BASES = (*SLOTS.values(), FlowExchange)
 #: Laws a file does not name: what stands in their slots if nothing is said.
-UNSAID = (NoLeak, FixedWall, Plenum, PortMixing, CompleteCombustion, FixedFrame, NoScatter)
+UNSAID = (
+    NoLeak,
+    FixedWall,
+    Plenum,
+    CompleteCombustion,
+    FixedFrame,
+    NoScatter,
+    PortMixing,
+)
 #: Numbers that came later: a file names them only where they are not the default, so that folders
 #: of sweeps begun before still know their engine.
 LATER = ("back_area", "back_pressure", "burnt_shares")

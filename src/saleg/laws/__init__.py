@@ -64,6 +64,7 @@ from saleg.laws.control.load import DeadCentreRegulator, PowerDemand, ScaledLoad
 from saleg.laws.control.motor import PhaseLockedMotor, ResonanceSearch, SteadyMotor
 from saleg.laws.control.position_sensor import PositionSensor
 from saleg.laws.control.state_logic import AlwaysMotored, CompressionThreshold, NeverMotored
+from saleg.laws.control.tracking import TrajectoryTracking
 from saleg.laws.earlier_names import accept_earlier_names
 from saleg.laws.frame import FixedFrame, MountedFrame
 from saleg.laws.friction import (
@@ -237,6 +238,7 @@ __all__ = [
     "StrokeRegulator",
     "Supply",
     "TabulatedDelay",
+    "TrajectoryTracking",
     "Validity",
     "ViscousFriction",
     "Wall",

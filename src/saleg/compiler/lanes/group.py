@@ -26,15 +26,15 @@ def group_of(run: Integration, address: int, width: int) -> Group:
     Returns
     -------
     Group
+        With that engine at rest in every lane: a lane without one would compute what is no number,
+        which takes long.
     """
     runs = _runs(run, width)
     step = np.zeros((width, 1), STEP_RECORD)
     flat = Flat(*(_as_numbers(part) for part in (runs.laws, runs.engine, runs.chambers, step)))
-    stages = len(run.tableau.b)
-    records = [part.shape[1] for part in flat[:3]]
-    vectors = [count * layout.N_ALL for count in (1, 1, stages + 1)]
-    counts = [*records, *vectors, flat.step.shape[1]]
-    rows = Rows(*(np.zeros(count * width) for count in counts))
+    rates = np.zeros((len(run.tableau.b) + 1) * layout.N_ALL)
+    numbers = [*(part[0] for part in flat[:3]), run.y, run.y, rates, flat.step[0]]
+    rows = Rows(*(np.repeat(part, width) for part in numbers))
     fresh, codes = np.zeros(width, np.int64), np.full(width, layout.NOT_FOUND)
     return Group(address, run.laws, runs, flat, rows, step, fresh, codes)
 

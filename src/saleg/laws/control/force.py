@@ -59,12 +59,15 @@ class PushAlong(ForceControl):
         return ForceCommand(1.0, way * self.limit)
 
 
-def tracked_velocity(memory: Any, x: float, sample_time: float, time_constant: float) -> float:
+def tracked_velocity(
+    memory: Any, x: float, sample_time: float, time_constant: float, acceleration: float = 0.0
+) -> float:
     """Velocity [m/s] from measured positions, by a critically damped g-h filter.
 
     It is the steady Kalman filter of a motion with constant velocity whose noise makes both poles
     ``exp(-sample_time / time_constant)`` (Brookner, Tracking and Kalman Filtering Made Easy, 1998,
-    1.2); a sine comes out late by ``2 arctan(2 pi f time_constant)``.
+    1.2); a sine comes out late by ``2 arctan(2 pi f time_constant)``, unless its acceleration is
+    told.
 
     Parameters
     ----------
@@ -76,13 +79,16 @@ def tracked_velocity(memory: Any, x: float, sample_time: float, time_constant: f
         Time since the sample before [s].
     time_constant : float
         Of both poles [s].
+    acceleration : float
+        What is known of it since the sample before [m/s^2].
     """
     if memory[TRACKS] == 0.0:
         memory[POSITION], memory[VELOCITY], memory[TRACKS] = x, 0.0, 1.0
         return 0.0
     pole = math.exp(-sample_time / time_constant)
-    expected = memory[POSITION] + sample_time * memory[VELOCITY]
+    gained = sample_time * acceleration
+    expected = memory[POSITION] + sample_time * (memory[VELOCITY] + 0.5 * gained)
     error = x - expected
     memory[POSITION] = expected + (1.0 - pole * pole) * error
-    memory[VELOCITY] += (1.0 - pole) * (1.0 - pole) * error / sample_time
+    memory[VELOCITY] += gained + (1.0 - pole) * (1.0 - pole) * error / sample_time
     return memory[VELOCITY]
