@@ -87,7 +87,7 @@ def is_gas_of_charge(chamber: Any) -> Any:
 def is_gas_of_fuel(chamber: Any) -> Any:
     """Whether a gas is that of its chamber's fuel; of columns, in each row."""
     gas = _known_gas(chamber)
-    ratio = None if gas is None else chamber.fuel.air_fuel_ratio
+    ratio: Any = None if gas is None else chamber.fuel.air_fuel_ratio
     if gas is None or not (isinstance(ratio, Column) or as_float(ratio) is not None):
         return True
     return abs(ratio / gas.air_fuel_ratio - 1.0) <= OTHER_FUEL

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from saleg.errors import nearest, shown
-from saleg.fuels.mixtures import added, mass_of, times
-from saleg.fuels.real_fuel import FuelError, RealFuel, pure
+from saleg.fuels.mixtures import FuelError, added, mass_of, times
+from saleg.fuels.real_fuel import RealFuel, pure
 from saleg.fuels.species import all_species
 from saleg.laws import TabulatedDelay
 from saleg.quantities import as_float

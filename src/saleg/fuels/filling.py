@@ -10,7 +10,8 @@ import numpy as np
 from saleg.engine import CombustionChamber, Engine
 from saleg.engine.start import standard_charge
 from saleg.errors import shown
-from saleg.fuels.real_fuel import FuelError, RealFuel
+from saleg.fuels.mixtures import FuelError
+from saleg.fuels.real_fuel import RealFuel
 from saleg.quantities import as_float
 
 #: Richest charge that is looked for when fuel is metered by mass or heat [-].
