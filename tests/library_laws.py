@@ -6,6 +6,7 @@ LAWS = [
     laws.ChangGas(),
     laws.ConstantGamma(1.35),
     laws.MixtureGas(),
+    laws.ChargeGas(),
     laws.BurningGas(),
     laws.Hohenberg(),
     laws.Woschni(),

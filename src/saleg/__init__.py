@@ -28,13 +28,14 @@ from saleg.errors import (
     UnknownPath,
 )
 from saleg.simulation.integration import simulate
+from saleg.simulation.nearest import NearestMachine
 from saleg.simulation.net_output import Auxiliaries, NetOutput
 from saleg.simulation.performance import EnergyBalance, Performance
 from saleg.simulation.plausibility import Implausible
 from saleg.simulation.run import Run
 from saleg.simulation.scavenging import Scavenging
 from saleg.simulation.shaking import Shaking
-from saleg.simulation.validity import NearestMachine, ValidityReport
+from saleg.simulation.validity import ValidityReport
 from saleg.status import Status
 from saleg.steady.solver import Effort, steady_state
 from saleg.steady.state import SteadyState

@@ -154,6 +154,63 @@ def test_hydrogen_runs_at_less_compression_than_methane(base):
     assert ratios["hydrogen"] < ratios["methane"]
 
 
+def exits_of(engine):
+    """Ranges an engine leaves, for its left ignition, by quantity."""
+    rows = saleg.simulate(engine, 0.6).range_exits
+    return {row["quantity"]: row for row in rows if row["slot"] == "ignition"}
+
+
+def test_a_table_that_is_left_is_told(base):
+    """Kept tables end at phi 1, 200 bar and half of burnt gas, and each has its fuel."""
+    hot = base.replace(**{"intake.temperature": 480.0, "alternator.load_constant": 45.0})
+    hot = hot.replace(ignition=fuels.ignition_delays(fuels.hydrogen))
+    inside = exits_of(fuels.fill(hot, fuels.hydrogen, equivalence_ratio=0.5))
+    assert inside == {}
+    rich = exits_of(fuels.fill(hot, fuels.hydrogen, equivalence_ratio=1.5))["equivalence_ratio"]
+    assert (rich["low"], rich["high"], rich["seen_high"]) == (0.3, 1.0, 1.5)
+    assert rich["time_share"] == 1.0
+    boosted = hot.replace(**{"intake.pressure": 20e5, "alternator.load_constant": 300.0})
+    pressure = exits_of(fuels.fill(boosted, fuels.hydrogen, equivalence_ratio=0.5))["pressure"]
+    assert pressure["high"] == 200e5 < pressure["seen_high"]
+    light = hot.replace(egr=0.7, **{"alternator.load_constant": 25.0})
+    diluted = exits_of(fuels.fill(light, fuels.hydrogen, equivalence_ratio=1.0))
+    assert diluted["burnt_share"]["high"] == 0.5 < diluted["burnt_share"]["seen_high"]
+    other = exits_of(fuels.fill(hot, fuels.methane, equivalence_ratio=0.5))["air_fuel_ratio"]
+    assert other["seen_low"] == pytest.approx(17.12, abs=0.01)
+    assert 34.06 < other["high"] < 36.0
+
+
+def test_tables_are_of_molecules_whatever_they_are_called():
+    named = fuels.blend({"hydrogen": 1.0}, name="methane")
+    assert fuels.ignition_delays(named) == fuels.ignition_delays(fuels.hydrogen)
+    with pytest.raises(FuelError, match="no ignition delays are kept"):
+        fuels.ignition_delays(fuels.blend({"hydrogen": 1.0, "methane": 1.0}, name="methane"))
+
+
+def test_delays_of_other_molecules_are_refused():
+    """Dodecane for heptane would run 1.7 times as rich."""
+    pytest.importorskip("cantera", reason="needs the extra 'chemistry'")
+    names = {"methane": "C2H6", "hydrogn": "H2"}
+    with pytest.raises(FuelError, match="'hydrogn'; did you mean 'hydrogen'"):
+        fuels.compute_delays(fuels.methane, "gri30.yaml", species=names)
+    with pytest.raises(FuelError, match=r"C2H6 of gri30\.yaml is C2H6, and methane is C1H4"):
+        fuels.compute_delays(fuels.methane, "gri30.yaml", species={"methane": "C2H6"})
+    grid = {"temperatures": [1200.0], "equivalence_ratios": [1.0], "burnt_shares": [0.0]}
+    rising = fuels.compute_delays(
+        fuels.hydrogen, "h2o2.yaml", pressures=np.geomspace(1e6, 4e6, 2), **grid
+    )
+    assert rising.pressures == (1e6, pytest.approx(4e6))
+
+
+def test_every_wrong_argument_of_a_table_is_named():
+    with pytest.raises(FuelError) as caught:
+        fuels.compute_delays(
+            "methane", None, temperatures=[2.0, 1.0], burnt_shares=[1.5], species=["H2"]
+        )
+    for words in ("fuel = ", "mechanism = None", "temperatures", "burnt_shares", "species = "):
+        assert words in str(caught.value)
+
+
 def test_wrong_tables_are_named():
     for call, words in (
         (lambda: fuels.ignition_delays(fuels.toluene), "no ignition delays are kept for 'toluene'"),

@@ -1,5 +1,6 @@
 """Real fuels: heating values, stoichiometry, caloric data, and engines filled with them."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 import saleg
 from fuel_cases import BLENDS, FUELS, SPECIES, cantera_gas
 from saleg import fuels, laws
+from saleg.engine.columns import is_usual, rows_by_make
 from saleg.fuels import FuelError, mixtures
 from saleg.fuels.species import all_species
 
@@ -131,6 +133,104 @@ def test_fuel_is_metered_by_mass_or_heat(base):
     assert fuels.fill(base, fuels.propane, heat=0.0).get("equivalence_ratio") == 0.0
 
 
+@pytest.mark.parametrize("follows", [False, True])
+def test_the_gas_goes_with_mixture_and_retained_share(base, follows):
+    """Filled lean and enriched is filled rich: a lean gas let in 22 % more hydrogen."""
+
+    def filled(ratio, **changes):
+        engine = base.replace(**changes)
+        return fuels.fill(engine, fuels.hydrogen, equivalence_ratio=ratio, follows=follows)
+
+    rich = filled(1.0)
+    assert filled(0.3).replace(equivalence_ratio=1.0) == rich
+    assert filled(1.0, egr=0.3) == rich.replace(egr=0.3)
+    assert filled(0.3, egr=0.3) == rich.replace(**{"gas_exchange.egr": 0.3}, equivalence_ratio=0.3)
+    left = filled(0.3).replace(**{"left.equivalence_ratio": 1.0})
+    assert (left.left, left.right) == (rich.left, filled(0.3).right)
+    assert filled(0.3).replace(equivalence_ratio="much").problems()
+
+
+def test_a_gas_of_ones_own_stays(base):
+    engine = fuels.fill(base, fuels.hydrogen, equivalence_ratio=0.5, burnt=1.0)
+    richer = engine.replace(equivalence_ratio=0.8, egr=0.4)
+    assert richer.left.gas_properties == fuels.hydrogen.charge(0.8, 1.0)
+    own = engine.replace(**{"gas_properties.gas_constant": 300.0}, equivalence_ratio=0.8)
+    assert own.left.gas_properties.gas_constant == 300.0
+    assert own.replace(equivalence_ratio=0.9).left.gas_properties == own.left.gas_properties
+
+
+def test_the_gas_goes_with_the_place_where_fuel_enters(base):
+    direct = laws.DirectInjection()
+    for follows in (False, True):
+        filled = fuels.fill(base, fuels.hydrogen, follows=follows).replace(injection=direct)
+        assert filled == fuels.fill(base.replace(injection=direct), fuels.hydrogen, follows=follows)
+        assert filled.left.gas_properties.gas_constant < 300.0  # air, and not a third hydrogen
+
+
+def test_a_filled_engine_survives_a_file(base, tmp_path):
+    """And goes on with its gas; one of a file that knows no charge stays as it is."""
+    path = tmp_path / "engine.toml"
+    for follows in (False, True):
+        engine = fuels.fill(base, fuels.hydrogen, equivalence_ratio=0.3, follows=follows)
+        path.write_text(engine.to_toml())
+        read = saleg.Engine.from_toml(path)
+        assert read == engine
+        assert read.replace(equivalence_ratio=0.5) == engine.replace(equivalence_ratio=0.5)
+    earlier = base.replace(gas_properties=laws.BurningGas())
+    assert "air_fuel_ratio" not in earlier.to_toml().partition("gas_properties")[2][:2000]
+    richer = earlier.replace(equivalence_ratio=0.9)
+    assert richer.left.gas_properties == laws.BurningGas()
+    assert richer.unusual() == richer.problems() == []
+
+
+def test_the_text_of_a_file_is_no_path_and_a_name_no_fuel(base):
+    with pytest.raises(saleg.EngineFileError, match="must be the path of a file") as caught:
+        saleg.Engine.from_toml(base.to_toml())
+    assert len(str(caught.value)) < 200
+    with pytest.raises(saleg.InvalidEngine, match=r"must be a Fuel; saleg\.fuels\.fill sets"):
+        base.replace(fuel="hydrogen").validate()
+
+
+def test_a_gas_of_another_charge_is_told(base):
+    """What holds 16 % less hydrogen at phi 0.4, by the molar masses, than the gas of phi 1 says."""
+    engine = fuels.fill(base.replace(egr=0.0), fuels.hydrogen, equivalence_ratio=1.0)
+    left = dataclasses.replace(engine.left, equivalence_ratio=0.4)
+    other = dataclasses.replace(engine, left=left)
+    (told,) = other.unusual()
+    assert (told.path, told.value) == ("left.equivalence_ratio", 0.4)
+
+    def molar_mass(ratio):
+        hydrogen, air = ratio * 2.016, 0.5 * (31.998 + 3.76 * 28.014)
+        return (hydrogen + air) / (ratio + 0.5 * 4.76)
+
+    assert f"{100.0 * (molar_mass(1.0) / molar_mass(0.4) - 1.0):+.2g} %" in str(told)
+    assert engine.unusual() == []
+    (rows,) = rows_by_make([other])
+    assert is_usual(rows).tolist() == [False]
+
+
+def test_the_gas_of_another_fuel_is_refused(base):
+    for follows in (False, True):
+        engine = fuels.fill(base, fuels.methane, follows=follows)
+        with pytest.raises(saleg.InvalidEngine, match=r"fuel.*saleg\.fuels\.fill sets both"):
+            saleg.simulate(engine.replace(fuel=fuels.hydrogen.fuel), 0.1)
+        assert engine.replace(fuel=dataclasses.replace(engine.left.fuel)).problems() == []
+
+
+def test_what_is_metered_is_in_the_charge_of_a_gas_that_burns(base):
+    """Its mass is that of fuel, air and what is retained, at their own gas constants."""
+    engine = fuels.fill(base.replace(egr=0.3), fuels.hydrogen, heat=600.0, follows=True)
+    mass, fuel, air, burnt = saleg.engine.start.standard_charge(engine.left)
+    assert fuel * fuels.hydrogen.lower_heating_value == pytest.approx(600.0, rel=1e-9)
+    gas = engine.left.gas_properties
+    constants = sum(m * R for m, R in zip((fuel, air, burnt), gas.gas_constants, strict=True))
+    full = engine.left.reference_state
+    assert constants * full.temperature == pytest.approx(
+        full.pressure * engine.left.area * full.clearance
+    )
+    assert fuel + air + burnt == pytest.approx(mass)
+
+
 def test_the_engine_keeps_what_the_fuel_does_not_change(base):
     filled = fuels.fill(base, fuels.methane)
     assert filled.get("equivalence_ratio") == base.get("equivalence_ratio")
@@ -161,9 +261,36 @@ def test_wrong_fuels_and_amounts_are_named(base):
         (lambda: fuels.fill(base, fuels.methane, heat=1.0, fuel_mass=1.0), "give one"),
         (lambda: fuels.fill(base, fuels.methane, heat=1e6), "more than a charge holds"),
         (lambda: fuels.fill(base, fuels.methane, heat=-1.0), "heat = -1.0"),
+        (lambda: fuels.fill(base, fuels.methane, follows="no"), "follows = 'no'"),
+        (lambda: fuels.pure("nitrogen"), "no fuel 'nitrogen'; there are"),
+        (lambda: fuels.RealFuel("x", {"oxygen": 1.0}), "must take air"),
+        (lambda: fuels.gas_of({}), "moles = "),
     ):
         with pytest.raises(FuelError, match=words):
             call()
+
+
+def test_all_that_is_wrong_is_named_at_once(base):
+    for call, words in (
+        (lambda: fuels.fill(base, fuels.methane, burnt="x", equivalence_ratio="y"), "xy"),
+        (lambda: fuels.blend({"metane": 1.0, "hydrogen": -1.0}), ("metane", "hydrogen = -1")),
+        (
+            lambda: fuels.RealFuel("x", {"foo": 1.0, "methane": "1", "hydrogen": -0.5}),
+            ("'foo'", "methane = '1'", "hydrogen = -0.5"),
+        ),
+        (lambda: fuels.gas_of({"foo": 1.0, "oxygen": -1.0}), ("'foo'", "oxygen = -1")),
+    ):
+        with pytest.raises(FuelError) as caught:
+            call()
+        for word in words:
+            assert word in str(caught.value)
+
+
+def test_fuels_are_values():
+    """Shares of any size are shares, and equal fuels are one key."""
+    huge = fuels.blend({"methane": 1e308, "hydrogen": 1e308}, name="half")
+    assert huge == fuels.blend({"methane": 1.0, "hydrogen": 1.0}, name="half")
+    assert {huge: 1, fuels.methane: 2}[fuels.pure("methane")] == 2
 
 
 def test_gas_law_is_dry_air_by_default():

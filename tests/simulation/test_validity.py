@@ -14,9 +14,12 @@ from saleg.simulation.validity import validity_of
 from saleg.thesis.tables import columns
 
 
-def of_nothing(engine):
-    """Validity of an engine that has not run."""
-    return validity_of(engine, saleg.Performance.of_nothing(engine), np.zeros(0, STROKE_RECORD), [])
+def of_figures(engine, *, released=1.0, **figures):
+    """Validity of an engine that made some figures with some heat."""
+    strokes = np.zeros(2, STROKE_RECORD)
+    strokes["heat_released"] = released
+    nothing = saleg.Performance.of_nothing(engine)
+    return validity_of(engine, dataclasses.replace(nothing, **figures), strokes, [])
 
 
 @pytest.fixture(scope="module")
@@ -110,32 +113,119 @@ def test_the_rise_is_that_of_a_degree_of_the_cycle():
     assert rise.value(figures) == pytest.approx(10.0)
 
 
-def test_a_machine_supports_what_it_meets():
-    """West Virginia's power within 5 %, of that engine itself and of one a tenth larger."""
+def test_a_machine_supports_the_figures_of_this_result():
+    """West Virginia prints 309 W, of that engine within what its source leaves open."""
     engine = saleg.machines.wvu()
-    for like in (engine, engine.replace(bore=1.1 * engine.get("bore"))):
-        nearest = of_nothing(like).nearest
-        assert (nearest.name, nearest.is_measured) == ("wvu", True)
+    open_ended = engine.replace(**{"friction.coefficient": 36.0, "leak.gap": 0.0}, name="mine")
+    for one in (engine, open_ended, dataclasses.replace(engine, left=engine.right)):
+        nearest = of_figures(one, frequency=40.0, power=300.0).nearest
+        assert (nearest.name, nearest.is_measured, nearest.is_it) == ("wvu", True, True)
         assert nearest.differences == ()
+        assert nearest.deviations == {"power": pytest.approx(300.0 / 309.0 - 1.0)}
         assert nearest.supported == ("power",)
-        assert abs(nearest.deviations["power"]) < 0.1
-    ulsan = of_nothing(saleg.machines.ulsan()).nearest
-    assert (ulsan.name, ulsan.supported) == ("ulsan", ())
-    assert ulsan.differences == ()
+        assert of_figures(one, frequency=40.0, power=200.0).nearest.supported == ()
 
 
-def test_beyond_half_as_much_again_nothing_is_supported():
+def test_an_engine_like_a_machine_is_supported_by_what_ours_of_that_meets():
     engine = saleg.machines.wvu()
-    wide = engine.replace(bore=1.6 * engine.get("bore"))
-    nearest = of_nothing(wide).nearest
+    like = engine.replace(bore=1.1 * engine.get("bore"))
+    nearest = of_figures(like, frequency=40.0, power=500.0).nearest
+    assert (nearest.name, nearest.is_it, nearest.differences) == ("wvu", False, ())
+    assert nearest.supported == ("power",)
+    assert nearest.deviations == saleg.machines.PUBLISHED["wvu"].deviations()
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "told"),
+    [
+        ("translator.mass", 25.0, "moving mass 25 (its 2.5) kg"),
+        ("alternator.load_constant", 200.0, "load 200 (its "),
+        ("intake.pressure", 2e5, "charge 2 (its 1) bar"),
+        ("equivalence_ratio", 1.4, "equivalence ratio 1.4 (its "),
+        ("bore", 1.6 * 0.0364, "bore 58.24 (its 36.4) mm"),
+    ],
+)
+def test_half_as_much_again_of_what_a_machine_fixes_is_another_machine(path, value, told):
+    engine = saleg.machines.wvu().replace(**{path: value})
+    nearest = of_figures(engine, frequency=40.0, power=309.0).nearest
+    if nearest.name == "wvu":
+        assert any(text.startswith(told) for text in nearest.differences)
     assert nearest.supported == ()
-    assert any(text.startswith("bore ") for text in nearest.differences)
+
+
+def test_nothing_is_supported_without_fuel_that_burns():
+    for name in ("wvu", "newcastle"):
+        engine = saleg.machines.PUBLISHED[name].engine()
+        for figures in ({}, {"frequency": 30.0, "released": 0.0}):
+            nearest = of_figures(engine, **figures).nearest
+            assert nearest.name == name
+            assert nearest.supported == ()
+            assert "this one does not run on fuel" in str(nearest)
+
+
+def test_what_a_machine_is_set_to_is_no_support():
+    """Newcastle's load and bounce pressure are set so that stroke and compression ratio are met."""
+    engine = saleg.machines.newcastle()
+    met = {"stroke": 0.150, "compression_ratio": 15.0, "frequency": 30.0, "power": 3e4}
+    nearest = of_figures(engine, **met, efficiency=0.40).nearest
+    assert set(nearest.deviations) == {"frequency", "power", "efficiency"}
+    assert nearest.supported == ("frequency", "efficiency")
+    other = of_figures(engine, **(met | {"compression_ratio": 20.0}), efficiency=0.42).nearest
+    assert other.supported == ()
+    assert "compression ratio +33 %" in str(other)
+
+
+def test_what_is_published_for_other_numbers_is_left_out():
+    """Ulsan's 47 Hz are those of its stiffest springs."""
+    stiff = of_figures(saleg.machines.ulsan(14.7e3), frequency=46.0, efficiency=0.072).nearest
+    assert stiff.is_it
+    assert stiff.deviations["frequency at springs.stiffness 14700"] == pytest.approx(-1.0 / 47.0)
+    assert set(stiff.supported) == set(stiff.deviations)
+    assert len(stiff.deviations) == 2
+    between = of_figures(saleg.machines.ulsan(5e3), frequency=40.0).nearest
+    assert (between.is_it, between.deviations, between.supported) == (True, {}, ())
+
+
+def test_either_side_counts_and_any_spark_is_a_spark(base):
+    """One side with a spark is told as the other, and each kind of spark, by the law itself."""
+    sparks = (saleg.laws.SparkAtClearance(), saleg.laws.SparkBeforeDeadCentre())
+    for law in sparks:
+        found = [
+            of_figures(base.replace(**{f"{side}.ignition": law}), frequency=45.0).nearest
+            for side in ("left", "right")
+        ]
+        assert found[0] == dataclasses.replace(found[1], differences=found[0].differences)
+        assert set(found[0].differences) == set(found[1].differences)
+        both = of_figures(base.replace(ignition=law), frequency=45.0).nearest
+        assert not any("auto-ignition" in text for text in both.differences)
 
 
 def test_an_engine_that_burns_nothing_is_near_to_none():
     chamber = saleg.BounceChamber(bore=0.06, half_stroke=0.1)
     engine = saleg.Engine.mirrored(saleg.Translator(mass=2.0), chamber)
-    report = of_nothing(engine)
+    report = of_figures(engine)
     assert report.nearest is None
     assert str(report) == ""
     assert report.table.empty
+
+
+def test_a_spark_foreseen_comes_when_asked_or_says_why_not(base):
+    """With strokes alike at the time asked; where only one side fires both facts are told."""
+    met = saleg.steady_state(base.replace(ignition=saleg.laws.SparkBeforeDeadCentre(1e-3)))
+    assert met.performance.start_of_combustion == pytest.approx(1e-3, rel=1e-5)
+    assert met.remarks == []
+    late = saleg.steady_state(base.replace(ignition=saleg.laws.SparkBeforeDeadCentre(0.0)))
+    (silent,) = late.remarks
+    assert "cylinder has fuel and does not fire" in silent
+    ratios = [row for row in late.validity.range_exits if row["quantity"] == "stroke_ratio"]
+    assert ratios[0]["seen_low"] * ratios[1]["seen_high"] == pytest.approx(1.0)
+    assert (ratios[0]["low"], ratios[0]["high"]) == (0.99, 1.01)
+
+
+@pytest.mark.parametrize("name", ["polimi", "newcastle"])
+def test_an_engine_with_one_cylinder_foresees_no_dead_centre(name):
+    """Asked for 1 ms the spark would come 3.4 ms and 4.3 ms before dead centre."""
+    engine = saleg.machines.PUBLISHED[name].engine()
+    spark = engine.replace(ignition=saleg.laws.SparkBeforeDeadCentre(1e-3))
+    with pytest.raises(saleg.InvalidEngine, match="must not foresee the dead centre"):
+        spark.validate()

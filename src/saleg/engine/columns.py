@@ -12,6 +12,7 @@ import numpy as np
 
 from saleg import quantities
 from saleg.columns import Column, column, row_of
+from saleg.engine.charge_gas import is_gas_of_charge
 from saleg.engine.engine import Engine
 from saleg.engine.limits import lengths_fit, windows_fit
 from saleg.quantities import Limits, Quantities
@@ -196,6 +197,7 @@ def is_usual(rows: Rows) -> np.ndarray:
             usual &= quantities.is_usual(value, limits)
     for chamber in rows.engine.chambers:
         usual &= windows_fit(chamber)
+        usual &= is_gas_of_charge(chamber)
     return usual
 
 

@@ -23,6 +23,7 @@ from saleg.engine.chambers import (
     OpenEnd,
     Translator,
 )
+from saleg.engine.charge_gas import other_gases, with_gas_of_charge
 from saleg.engine.limits import is_within, limits_exceeded, paths_of, windows_too_wide
 from saleg.engine.start import CompressedCharge, Start
 from saleg.errors import InvalidEngine, LawError, SalegWarning
@@ -206,7 +207,8 @@ class Engine:
             New values (SI) by dotted path; paths with dots are passed as
             ``**{"intake.temperature": 300.0}``. A path of a chamber changes both sides unless
             ``left.`` or ``right.`` stands before it; where only one of them is a cylinder, it
-            is the cylinder's. A law and one of its numbers may be given together.
+            is the cylinder's. A law and one of its numbers may be given together. A gas made by
+            :func:`saleg.fuels.fill` goes with the equivalence ratio and the retained share.
 
         Returns
         -------
@@ -221,7 +223,7 @@ class Engine:
             If two names stand for one number: ``egr`` and ``gas_exchange.egr``, or ``bore`` and
             ``left.bore``.
         """
-        return paths.replace(self, changes)
+        return with_gas_of_charge(self, paths.replace(self, changes))
 
     def problems(self) -> list[Problem]:
         """Every wrong field of the engine; empty when it is valid."""
@@ -238,7 +240,7 @@ class Engine:
 
         Each names the usual range and, if one fits, the unit the number may have been given in.
         """
-        return self._each_part(unusual) + windows_too_wide(self)
+        return [*self._each_part(unusual), *windows_too_wide(self), *other_gases(self)]
 
     def _each_part(self, look: Callable[[Any, str], list[Problem]]) -> list[Problem]:
         """What is found in the parts, with their paths; chambers that are alike count once."""
@@ -418,4 +420,5 @@ def _law_problems(engine: Engine) -> list[Problem]:
 def _kind_problem(value: Any, kind: type, path: str) -> list[Problem]:
     if isinstance(value, kind):
         return []
-    return [Problem(path, value, "-", f"must be a {kind.__name__}")]
+    hint = "; saleg.fuels.fill sets fuel and gas" if kind is Fuel else ""
+    return [Problem(path, value, "-", f"must be a {kind.__name__}{hint}")]

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from saleg.engine.chambers import CombustionChamber, Cylinder, GasChamber, OpenEnd
+from saleg.engine.charge_gas import is_gas_of_fuel
 from saleg.laws import Crankcase, DirectInjection, PortFlow
 from saleg.quantities import Problem
 
@@ -205,6 +206,23 @@ def _limits_of_composition(engine: Any, side: int, most: Any) -> Iterator[Limit]
         yield "gas_properties", not flows, "-", allowed
 
 
+def _limits_of_fuels(engine: Any, side: int, most: Any) -> Iterator[Limit]:
+    allowed = "must be the fuel that gas_properties is made of: saleg.fuels.fill sets both"
+    yield "fuel", is_gas_of_fuel(engine.chambers[side]), "-", allowed
+
+
+def _limits_of_foresight(engine: Any, side: int, most: Any) -> Iterator[Limit]:
+    """Limits of laws that foresee dead centres."""
+    ignition = getattr(engine.chambers[side], "ignition", None)
+    if getattr(ignition, "foresees_dead_centre", False):
+        allowed = (
+            "must not foresee the dead centre from the stroke before in an engine with one "
+            "cylinder, whose strokes either way differ: take SparkAtClearance"
+        )
+        burns = all(isinstance(chamber, CombustionChamber) for chamber in engine.chambers)
+        yield "ignition", burns, "-", allowed
+
+
 #: In place of a field: the half strokes of both sides.
 BOTH = "maximum stroke"
 _EDGES = "port_closing", "head_gap", BOTH
@@ -220,4 +238,6 @@ FAMILIES: tuple[tuple[Any, tuple[str, ...]], ...] = (
     (_limits_of_injection, (*_EDGES, "injection")),
     (_limits_of_feeds, ()),
     (_limits_of_composition, ()),
+    (_limits_of_fuels, ("fuel", "gas_properties")),
+    (_limits_of_foresight, ("ignition",)),
 )

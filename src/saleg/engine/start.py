@@ -255,11 +255,15 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
     burnt_per_fuel = (
         (1.0 + ratio) * burning_share(cylinder) * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
     )
-    if cylinder.injection.is_direct:  # once the ports have closed on the rest
-        fuel = mass / (ratio / phi + burnt_per_fuel)
-        mass = mass + fuel
-    else:
-        fuel = mass / (1.0 + ratio / phi + burnt_per_fuel)
+    gas, is_direct = cylinder.gas_properties, cylinder.injection.is_direct
+    # What the ports close on, over the fuel: with direct injection that comes later.
+    parts = (0.0 if is_direct else 1.0, ratio / phi, burnt_per_fuel)
+    whole = sum(parts)
+    if gas.follows_composition:
+        constant = sum(part * R for part, R in zip(parts, gas.gas_constants, strict=True)) / whole
+        mass *= gas.gas_constant / constant
+    fuel = mass / whole
+    mass = mass + fuel if is_direct else mass
     return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
 
 

@@ -33,6 +33,7 @@ from saleg.laws import (
     CompleteCombustion,
     FixedFrame,
     FixedWall,
+    Law,
     NoLeak,
     NoScatter,
     Plenum,
@@ -58,6 +59,7 @@ UNSAID = (
 #: Numbers that came later: a file names them only where they are not the default, so that folders
 #: of sweeps begun before still know their engine.
 LATER = ("back_area", "back_pressure", "burnt_shares")
+LATER_OF_LAWS = ("air_fuel_ratio", "equivalence_ratio", "burnt_share")
 CHAMBERS: dict[str, type] = {
     kind.__name__: kind for kind in (Cylinder, SealedCylinder, BounceChamber, OpenEnd)
 }
@@ -190,12 +192,13 @@ def _quoted(text: str) -> str:
 def _table(path: str, node: Any) -> list[str]:
     """Lines of one table and, below it, of the tables in it."""
     lines, below = ["", f"[{path}]"], []
+    later = LATER + (LATER_OF_LAWS if isinstance(node, Law) else ())
     if not isinstance(node, tuple(PARTS.values())):
         word = KIND if isinstance(node, tuple(CHAMBERS.values())) else LAW
         lines.append(f"{word} = {_quoted(type(node).__name__)}")
     for item in dataclasses.fields(node):
         value = getattr(node, item.name)
-        if type(value) in UNSAID or (item.name in LATER and value == item.default):
+        if type(value) in UNSAID or (item.name in later and value == item.default):
             continue
         if dataclasses.is_dataclass(value):
             below += _table(f"{path}.{item.name}", value)

@@ -75,7 +75,9 @@ def read_text(path: Any, error: type[SalegError]) -> str:
     SalegError
         Of the type `error`, naming the file and what is wrong with it.
     """
-    path = as_path(path, error)
+    given, path = path, as_path(path, error)
+    if "\n" in str(path) and not os.path.exists(path):
+        raise error(f"path = {shown(given)}: must be the path of a file, and not its text")
     if is_folder(path, error):
         raise error(f"cannot read {path}: it is a folder, no file")
     with named(path, error):

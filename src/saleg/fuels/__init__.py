@@ -2,8 +2,8 @@
 
 from saleg.fuels.delays import compute_delays, ignition_delays
 from saleg.fuels.filling import fill
-from saleg.fuels.mixtures import gas_of
-from saleg.fuels.real_fuel import FuelError, RealFuel, blend, pure
+from saleg.fuels.mixtures import FuelError, gas_of
+from saleg.fuels.real_fuel import RealFuel, blend, pure
 
 #: Methane.
 methane = pure("methane")

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import csv
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import resources
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from saleg.errors import nearest, shown
-from saleg.fuels.mixtures import added, mass_of, times
-from saleg.fuels.real_fuel import FuelError, RealFuel, pure
+from saleg.fuels.mixtures import FuelError, added, mass_of, times
+from saleg.fuels.real_fuel import RealFuel, pure
+from saleg.fuels.species import all_species
 from saleg.laws import TabulatedDelay
 from saleg.quantities import as_float
 
@@ -77,16 +79,19 @@ def ignition_delays(fuel: RealFuel) -> TabulatedDelay:
     >>> len(law.delays) == len(law.pressures) * len(law.temperatures) * 12
     True
     """
-    name = getattr(fuel, "name", fuel)
-    if name not in KEPT:
-        hint = nearest(str(name), KEPT) or f"; there are {', '.join(KEPT)}"
+    if not isinstance(fuel, RealFuel):
+        raise FuelError(f"fuel = {shown(fuel)}: must be a fuel of saleg.fuels")
+    molecules = tuple(fuel.moles)
+    name = molecules[0] if len(molecules) == 1 else fuel.name
+    if molecules != (name,) or name not in KEPT:
+        hint = f"; there are {', '.join(KEPT)}"
         raise FuelError(f"no ignition delays are kept for {shown(name)}{hint}; see compute_delays")
     file = resources.files("saleg.fuels").joinpath(f"delays_{name}.csv")
     rows = list(csv.DictReader(file.read_text(encoding="utf-8").splitlines()))
     axes = [sorted({float(row[key]) for row in rows}) for key in ("burnt", "p_Pa", "T_K", "phi")]
     shares, pressures, temperatures, ratios = map(tuple, axes)
     delays = tuple(float(row["delay_s"]) for row in rows)
-    return TabulatedDelay(pressures, temperatures, ratios, delays, shares)
+    return TabulatedDelay(pressures, temperatures, ratios, delays, shares, fuel.air_fuel_ratio)
 
 
 def compute_delays(
@@ -97,7 +102,7 @@ def compute_delays(
     temperatures: Sequence[float] = TEMPERATURES,
     equivalence_ratios: Sequence[float] = EQUIVALENCE_RATIOS,
     burnt_shares: Sequence[float] = BURNT_SHARES,
-    species: dict[str, str] | None = None,
+    species: Mapping[str, str] | None = None,
     phase: str = "",
 ) -> TabulatedDelay:
     """Compute ignition delays by a chemical mechanism; needs the extra ``saleg[chemistry]``.
@@ -125,7 +130,8 @@ def compute_delays(
     Raises
     ------
     FuelError
-        If Cantera is not installed, the mechanism lacks a molecule, or a grid is none.
+        If Cantera is not installed; naming every grid that is none, and every molecule that the
+        mechanism lacks or has with other atoms.
     """
     grids = {
         "burnt_shares": burnt_shares,
@@ -133,33 +139,79 @@ def compute_delays(
         "temperatures": temperatures,
         "equivalence_ratios": equivalence_ratios,
     }
+    wrong = _problems(fuel, mechanism, grids, species)
+    if wrong:
+        raise FuelError("\n".join(wrong))
+    gas = _solution(mechanism, phase)
+    names = FORMULAS | dict(species or {})
+    charges = {
+        (ratio, share): _charge(fuel, float(ratio), float(share))
+        for ratio, share in itertools.product(equivalence_ratios, burnt_shares)
+    }
+    others = _other_molecules(
+        gas, mechanism, names, dict.fromkeys(itertools.chain(*charges.values()))
+    )
+    if others:
+        raise FuelError("\n".join(others))
+    delays = []
+    for share, p, T, ratio in itertools.product(*grids.values()):
+        moles = charges[ratio, share]
+        gas.TPX = T, p, {names[key]: amount for key, amount in moles.items()}
+        delays.append(_delay(gas))
+    axes = {name: tuple(map(float, grid)) for name, grid in grids.items()}
+    return TabulatedDelay(delays=tuple(delays), air_fuel_ratio=fuel.air_fuel_ratio, **axes)
+
+
+def _problems(fuel: Any, mechanism: Any, grids: dict[str, Any], species: Any) -> list[str]:
+    """Everything wrong with what delays are to be computed of."""
     wrong = [
-        f"{name} = {shown(grid)}: must be rising numbers > 0 (burnt shares from 0)"
+        f"{name} = {shown(grid)}: must be rising numbers > 0"
+        + (" (or from 0) and <= 1" if name == "burnt_shares" else "")
         for name, grid in grids.items()
         if not _is_grid(grid, name)
     ]
     if not isinstance(fuel, RealFuel):
         wrong.append(f"fuel = {shown(fuel)}: must be a fuel of saleg.fuels")
-    if wrong:
-        raise FuelError("\n".join(wrong))
-    gas = _solution(mechanism, phase)
-    names = FORMULAS | (species or {})
-    delays = []
-    for share, p, T, ratio in itertools.product(*grids.values()):
-        moles = _charge(fuel, float(ratio), float(share))
-        unknown = [names[key] for key in moles if names[key] not in gas.species_names]
-        if unknown:
-            raise FuelError(f"{mechanism} has no {', '.join(unknown)}: name them in species")
-        gas.TPX = T, p, {names[key]: amount for key, amount in moles.items()}
-        delays.append(_delay(gas))
-    axes = {name: tuple(map(float, grid)) for name, grid in grids.items()}
-    return TabulatedDelay(delays=tuple(delays), **axes)
+    if not isinstance(mechanism, str | PathLike):
+        wrong.append(f"mechanism = {shown(mechanism)}: must name a mechanism of Cantera")
+    if not isinstance(species or {}, Mapping):
+        wrong.append(f"species = {shown(species)}: must map molecules to names in the mechanism")
+        return wrong
+    for key, name in (species or {}).items():
+        if key not in FORMULAS and key not in all_species():
+            wrong.append(f"species: no molecule {shown(key)}{nearest(str(key), FORMULAS)}")
+        if not isinstance(name, str):
+            wrong.append(f"species: {shown(key)} = {shown(name)}: must be a name in the mechanism")
+    return wrong
+
+
+def _other_molecules(
+    gas: Any, mechanism: str, names: dict[str, str], molecules: Iterable[str]
+) -> list[str]:
+    """What a mechanism has not, or has other atoms in than the molecule has."""
+    wrong = []
+    unknown = [names[key] for key in molecules if names[key] not in gas.species_names]
+    if unknown:
+        wrong.append(f"{mechanism} has no {', '.join(unknown)}: name them in species")
+    for key in molecules:
+        if names[key] in gas.species_names:
+            atoms = {a: n for a, n in all_species()[key].atoms._asdict().items() if n > 0.0}
+            theirs = dict(gas.species(names[key]).composition)
+            if theirs != atoms:
+                told = f"is {_formula(theirs)}, and {key} is {_formula(atoms)}"
+                wrong.append(f"species: {names[key]} of {mechanism} {told}")
+    return wrong
+
+
+def _formula(atoms: Mapping[str, float]) -> str:
+    return "".join(f"{atom}{n:g}" for atom, n in atoms.items())
 
 
 def _is_grid(grid: Any, name: str) -> bool:
-    numbers = [as_float(value) for value in grid] if isinstance(grid, (list, tuple)) else []
-    least = 0.0 if name == "burnt_shares" else 1e-9
-    known = [number for number in numbers if number is not None and number >= least]
+    is_row = isinstance(grid, (list, tuple)) or (isinstance(grid, np.ndarray) and grid.ndim == 1)
+    numbers = [as_float(value) for value in grid] if is_row else []
+    least, most = (0.0, 1.0) if name == "burnt_shares" else (1e-9, 1e300)
+    known = [number for number in numbers if number is not None and least <= number <= most]
     rising = all(a < b for a, b in itertools.pairwise(known))
     return bool(numbers) and len(known) == len(numbers) and rising
 

@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from saleg.engine import CombustionChamber, Engine
 from saleg.engine.start import standard_charge
 from saleg.errors import shown
-from saleg.fuels.real_fuel import FuelError, RealFuel
+from saleg.fuels.mixtures import FuelError
+from saleg.fuels.real_fuel import RealFuel
 from saleg.quantities import as_float
 
 #: Richest charge that is looked for when fuel is metered by mass or heat [-].
@@ -37,7 +40,8 @@ def fill(
     equivalence_ratio : float, optional
         Of the charge [-]; that of the engine unless one of the three amounts is given.
     fuel_mass : float, optional
-        Fuel in the charge of each cylinder [kg].
+        Fuel in the charge of each cylinder, what is retained unburnt included [kg]; of one that
+        gas flows into through ports, that of a charge that fills it at the state of the intake.
     heat : float, optional
         Lower heating value of that fuel [J].
     burnt : float, optional
@@ -67,7 +71,7 @@ def fill(
     """
     given = {"equivalence_ratio": equivalence_ratio, "fuel_mass": fuel_mass, "heat": heat}
     amounts = {name: value for name, value in given.items() if value is not None}
-    wrong = _problems(engine, fuel, amounts)
+    wrong = _problems(engine, fuel, amounts, burnt, follows)
     if wrong:
         raise FuelError("\n".join(wrong))
     for side in engine.gas_sides:
@@ -76,7 +80,9 @@ def fill(
     return engine
 
 
-def _problems(engine: Any, fuel: Any, amounts: dict[str, Any]) -> list[str]:
+def _problems(
+    engine: Any, fuel: Any, amounts: dict[str, Any], burnt: Any, follows: Any
+) -> list[str]:
     wrong = []
     if not isinstance(engine, Engine):
         wrong.append(f"engine = {shown(engine)}: must be a saleg.Engine")
@@ -90,6 +96,11 @@ def _problems(engine: Any, fuel: Any, amounts: dict[str, Any]) -> list[str]:
         number = as_float(value)
         if number is None or not 0.0 <= number < math.inf:
             wrong.append(f"{name} = {shown(value)}: must be a number >= 0")
+    share = 0.0 if burnt is None else as_float(burnt)
+    if share is None or not 0.0 <= share <= 1.0:
+        wrong.append(f"burnt = {shown(burnt)}: must be a number >= 0 and <= 1")
+    if not isinstance(follows, (bool, np.bool_)):
+        wrong.append(f"follows = {shown(follows)}: must be True or False")
     return wrong
 
 

@@ -6,20 +6,19 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, TypeVar
 
 from saleg.engine import Fuel
-from saleg.errors import SalegError, nearest, shown
-from saleg.fuels.mixtures import NITROGEN, added, gas_of, mass_of, times
+from saleg.errors import nearest, shown
+from saleg.fuels.mixtures import NITROGEN, FuelError, added, gas_of, mass_of, times, wrong_amounts
 from saleg.fuels.species import Atoms, all_species
-from saleg.laws import BurningGas, MixtureGas
+from saleg.laws import BurningGas, ChargeGas
 from saleg.quantities import as_float
 
 #: Gases that are no fuels.
 AIR_AND_PRODUCTS = ("oxygen", "nitrogen", "carbon dioxide", "water")
 
-
-class FuelError(SalegError, ValueError):
-    """A fuel, or an amount of it, that cannot be."""
+_Gas = TypeVar("_Gas", bound=ChargeGas)
 
 
 @dataclass(frozen=True)
@@ -32,6 +31,11 @@ class RealFuel:
     moles : dict of str to float
         Its molecules in a mole of fuel [mol].
 
+    Raises
+    ------
+    FuelError
+        Naming every wrong amount; or if it burns with no air.
+
     Examples
     --------
     >>> from saleg import fuels
@@ -41,6 +45,21 @@ class RealFuel:
 
     name: str
     moles: dict[str, float]
+
+    def __post_init__(self) -> None:
+        wrong = wrong_amounts(self.moles)
+        if not isinstance(self.name, str):
+            wrong.insert(0, f"name = {shown(self.name)}: must be text")
+        if not wrong:
+            moles = {key: float(amount) for key, amount in self.moles.items()}
+            object.__setattr__(self, "moles", moles)
+            if not self.oxygen > 0.0:
+                wrong.append(f"moles = {shown(moles)}: must take air to burn")
+        if wrong:
+            raise FuelError("\n".join(wrong))
+
+    def __hash__(self) -> int:
+        return hash((self.name, frozenset(self.moles.items())))
 
     @cached_property
     def atoms(self) -> Atoms:
@@ -80,7 +99,7 @@ class RealFuel:
 
     def charge(
         self, equivalence_ratio: float, burnt: float = 0.0, *, direct: bool = False
-    ) -> MixtureGas:
+    ) -> ChargeGas:
         """Gas of fuel and air, and of what a charge before it has burnt to.
 
         Parameters
@@ -94,7 +113,7 @@ class RealFuel:
 
         Returns
         -------
-        MixtureGas
+        ChargeGas
             For ``gas_properties`` of a chamber. A charge keeps one gas for a whole cycle.
 
         Raises
@@ -102,18 +121,7 @@ class RealFuel:
         FuelError
             If a number is out of range.
         """
-        ratio, share = as_float(equivalence_ratio), as_float(burnt)
-        wrong = []
-        if ratio is None or not 0.0 <= ratio < math.inf:
-            wrong.append(f"equivalence_ratio = {shown(equivalence_ratio)}: must be a number >= 0")
-        if share is None or not 0.0 <= share <= 1.0:
-            wrong.append(f"burnt = {shown(burnt)}: must be a number >= 0 and <= 1")
-        if wrong or ratio is None or share is None:
-            raise FuelError("\n".join(wrong))
-        fresh, gone = self.fresh(0.0 if direct else ratio), self.burnt(ratio)
-        return gas_of(
-            added(times((1.0 - share) / mass_of(fresh), fresh), times(share / mass_of(gone), gone))
-        )
+        return self._gas(ChargeGas, equivalence_ratio, burnt, direct)
 
     def burning_gas(
         self, equivalence_ratio: float, burnt: float = 0.0, *, direct: bool = False
@@ -137,12 +145,20 @@ class RealFuel:
         FuelError
             If a number is out of range.
         """
-        start = self.charge(equivalence_ratio, burnt, direct=direct)
+        return self._gas(BurningGas, equivalence_ratio, burnt, direct)
+
+    def _gas(self, kind: type[_Gas], equivalence_ratio: Any, burnt: Any, direct: bool) -> _Gas:
+        """Law of a kind for the gas of a charge."""
+        ratio, share = as_float(equivalence_ratio), as_float(burnt)
+        wrong = []
+        if ratio is None or not 0.0 <= ratio < math.inf:
+            wrong.append(f"equivalence_ratio = {shown(equivalence_ratio)}: must be a number >= 0")
+        if share is None or not 0.0 <= share <= 1.0:
+            wrong.append(f"burnt = {shown(burnt)}: must be a number >= 0 and <= 1")
+        if wrong or ratio is None or share is None:
+            raise FuelError("\n".join(wrong))
         fuel, air, burnt_gas = map(gas_of, (self.moles, self._air(1.0), self.burnt(1.0)))
-        return BurningGas(
-            gas_constant=start.gas_constant,
-            low=start.low,
-            high=start.high,
+        parts = kind(
             fuel_constant=fuel.gas_constant,
             air_constant=air.gas_constant,
             burnt_constant=burnt_gas.gas_constant,
@@ -152,7 +168,9 @@ class RealFuel:
             air_high=air.high,
             burnt_low=burnt_gas.low,
             burnt_high=burnt_gas.high,
+            air_fuel_ratio=self.air_fuel_ratio,
         )
+        return parts.for_charge(ratio, share, direct=direct)
 
     def fresh(self, equivalence_ratio: float) -> dict[str, float]:
         """Molecules of fresh charge with the air of a mole of fuel [mol]."""
@@ -197,10 +215,20 @@ def pure(name: str) -> RealFuel:
     FuelError
         With the nearest name if there are no data for it.
     """
-    known = [species for species in all_species() if species not in AIR_AND_PRODUCTS]
-    if name not in known:
-        raise FuelError(f"no fuel {shown(name)}{nearest(str(name), known) or _listed(known)}")
+    told = _no_fuel(name)
+    if told:
+        raise FuelError(told)
     return RealFuel(name, {name: 1.0})
+
+
+def _no_fuel(name: Any) -> str:
+    """Why a name is none of a fuel; empty for one that is."""
+    known = [species for species in all_species() if species not in AIR_AND_PRODUCTS]
+    if isinstance(name, str) and name in known:
+        return ""
+    gas = isinstance(name, str) and name in AIR_AND_PRODUCTS
+    hint = "" if gas else nearest(str(name), known)
+    return f"no fuel {shown(name)}{hint or '; there are ' + ', '.join(known)}"
 
 
 def blend(shares: Mapping[str, float], *, by_mass: bool = False, name: str = "") -> RealFuel:
@@ -232,20 +260,25 @@ def blend(shares: Mapping[str, float], *, by_mass: bool = False, name: str = "")
     """
     if not isinstance(shares, Mapping) or not shares:
         raise FuelError(f"shares = {shown(shares)}: must map names of fuels to their shares")
-    parts = {key: pure(key) for key in shares}
-    wrong = [key for key, share in shares.items() if not 0.0 < (as_float(share) or 0.0) < math.inf]
+    numbers = {key: as_float(share) or 0.0 for key, share in shares.items()}
+    wrong = [told for told in map(_no_fuel, shares) if told]
+    wrong += [
+        f"share of {key} = {shown(shares[key])}: must be > 0"
+        for key, number in numbers.items()
+        if not 0.0 < number < math.inf
+    ]
+    if not isinstance(name, str):
+        wrong.append(f"name = {shown(name)}: must be text")
+    if not isinstance(by_mass, bool):
+        wrong.append(f"by_mass = {shown(by_mass)}: must be True or False")
     if wrong:
-        named = "\n".join(f"share of {key} = {shown(shares[key])}: must be > 0" for key in wrong)
-        raise FuelError(named)
+        raise FuelError("\n".join(wrong))
+    greatest = max(numbers.values())
     amounts = {
-        key: float(share) / (parts[key].molar_mass if by_mass else 1.0)
-        for key, share in shares.items()
+        key: number / greatest / (pure(key).molar_mass if by_mass else 1.0)
+        for key, number in numbers.items()
     }
     total = sum(amounts.values())
     moles = {key: amount / total for key, amount in amounts.items()}
     named = " + ".join(f"{100.0 * share:.3g} % {key}" for key, share in moles.items())
     return RealFuel(name or named, moles)
-
-
-def _listed(known: list[str]) -> str:
-    return f"; there are {', '.join(known)}"

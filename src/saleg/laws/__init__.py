@@ -76,7 +76,13 @@ from saleg.laws.friction import (
     ViscousFriction,
 )
 from saleg.laws.gas_exchange import InstantExchange, PortFlow
-from saleg.laws.gas_properties import BurningGas, ChangGas, ConstantGamma, MixtureGas
+from saleg.laws.gas_properties import (
+    BurningGas,
+    ChangGas,
+    ChargeGas,
+    ConstantGamma,
+    MixtureGas,
+)
 from saleg.laws.heat_release import BurnProfile, DoubleWiebe, InstantRelease, Wiebe
 from saleg.laws.heat_transfer import (
     Annand,
@@ -128,6 +134,7 @@ __all__ = [
     "Chang",
     "ChangGas",
     "Charge",
+    "ChargeGas",
     "CircuitAlternator",
     "Commands",
     "CompleteCombustion",

@@ -20,7 +20,9 @@ class Validity(NamedTuple):
     Attributes
     ----------
     quantity : str
-        "temperature" [K], "pressure" [Pa], "mean_piston_speed" [m/s] or "equivalence_ratio" [-].
+        "temperature" [K], "pressure" [Pa], "mean_piston_speed" [m/s], "equivalence_ratio",
+        "burnt_share" of the charge by mass, "air_fuel_ratio" of the fuel, or "stroke_ratio",
+        duration of the stroke towards the head over that of the one before [-].
     low, high : float
         The range, in the SI unit of the quantity.
     source : str
@@ -48,7 +50,8 @@ class Law(Quantities):
         Those among them, of gas and charge, whose formula is reduced to fewer powers
         (:mod:`saleg.compiler.strength_reduction`).
     valid_for : tuple of Validity
-        Ranges the law was made for; a run says where it left them.
+        Ranges the law was made for; a run says where it left them. Where they follow from its
+        numbers it has them as :attr:`ranges`.
     earlier_names : dict of str to str
         Methods that have another name now: a law that has only the earlier one is taken at that.
     mirrors : bool
@@ -72,6 +75,11 @@ class Law(Quantities):
     mirrors: ClassVar[bool] = False
     states: ClassVar[tuple[str, ...]] = ()
     derived: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def ranges(self) -> tuple[Validity, ...]:
+        """Ranges a law of these numbers was made for: `valid_for` unless it says otherwise."""
+        return self.valid_for
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -179,9 +187,20 @@ class HeatRelease(Law):
 
 
 class Ignition(Law):
-    """Start of combustion by an integral that starts at port closing."""
+    """Start of combustion by an integral that starts at port closing.
+
+    Attributes
+    ----------
+    is_timed : bool
+        Whether a spark or an injection sets the moment; else the charge lights itself.
+    foresees_dead_centre : bool
+        Whether it looks at ``charge.time_to_dead_centre``, which is right where strokes either way
+        last equally long: an engine with one cylinder is refused.
+    """
 
     slot = "ignition"
+    is_timed: ClassVar[bool] = False
+    foresees_dead_centre: ClassVar[bool] = False
     compiled = ("rate", "lights_at_dead_centre")
     optional = ("lights_at_dead_centre",)
     at_every_step = ("rate",)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -189,26 +189,25 @@ def energy(low: Sequence[float], high: Sequence[float], T: float) -> float:
 
 
 @dataclass(frozen=True)
-class BurningGas(MixtureGas):
-    """Ideal gas of fuel, air and burnt gas, whose composition follows the combustion.
+class ChargeGas(MixtureGas):
+    """Ideal gas of a charge of fuel, air and burnt gas: one gas for the whole cycle.
 
-    Each part is a gas as of :class:`MixtureGas`, and their masses in the chamber weight them: heat
-    capacity, energy and the number of moles change as the charge burns, and with what is retained.
-    :meth:`saleg.fuels.RealFuel.burning_gas` makes it. Chambers let no gas in or out but in an
-    instant: :class:`InstantExchange`, :class:`NoLeak`.
+    :meth:`saleg.fuels.RealFuel.charge` makes it. :meth:`saleg.Engine.replace` makes it anew for
+    another equivalence ratio and another retained share.
 
     Parameters
     ----------
     gas_constant, low, high : float, tuple of float
-        Of a fresh charge, as of :class:`MixtureGas`, for the start of a run [J/kg/K, -].
+        Of the charge, as of :class:`MixtureGas` [J/kg/K, -].
     fuel_constant, air_constant, burnt_constant : float
-        Specific gas constants [J/kg/K].
+        Specific gas constants of fuel, air and stoichiometric burnt gas [J/kg/K].
     fuel_low, fuel_high, air_low, air_high, burnt_low, burnt_high : tuple of float, shape (5,)
         Coefficients of the parts below and above 1000 K [-, 1/K, ... 1/K^4].
+    air_fuel_ratio : float
+        Stoichiometric air-fuel ratio of the fuel by mass [-]; 0 if the charge is not known.
+    equivalence_ratio, burnt_share : float
+        Of the charge: that of its fuel and air, and its share of burnt gas by mass [-].
     """
-
-    states = ("contents",)
-    follows_composition: ClassVar[bool] = True
 
     fuel_constant: float = quantity(
         "J/kg/K", default=518.261, low=0, open_low=True, usual=GAS_CONSTANT
@@ -225,6 +224,77 @@ class BurningGas(MixtureGas):
     air_high: tuple[float, ...] = series("-", default=AIR_HIGH, at_least=5)
     burnt_low: tuple[float, ...] = series("-", default=BURNT_LOW, at_least=5)
     burnt_high: tuple[float, ...] = series("-", default=BURNT_HIGH, at_least=5)
+    air_fuel_ratio: float = quantity("-", default=0.0, low=0)
+    equivalence_ratio: float = quantity("-", default=0.0, low=0)
+    burnt_share: float = quantity("-", default=0.0, low=0, high=1)
+
+    @property
+    def is_of_known_charge(self) -> bool:
+        """Whether it says what charge it is the gas of; a file of earlier versions does not."""
+        return self.air_fuel_ratio > 0.0
+
+    def for_charge(
+        self, equivalence_ratio: float, burnt_share: float, *, direct: bool = False
+    ) -> Self:
+        """The gas of another charge of the same fuel.
+
+        Parameters
+        ----------
+        equivalence_ratio, burnt_share : float
+            Of that charge [-].
+        direct : bool
+            Whether its fresh part is air alone, as the fuel is injected once the ports have closed.
+        """
+        burning, mixed_in = min(equivalence_ratio, 1.0), 0.0 if direct else equivalence_ratio
+        whole = equivalence_ratio + self.air_fuel_ratio
+        fresh = (1.0 - burnt_share) * whole / (mixed_in + self.air_fuel_ratio)
+        # Burnt gas of a lean charge has the air left, of a rich one the fuel left.
+        masses = (
+            fresh * mixed_in + burnt_share * (equivalence_ratio - burning),
+            self.air_fuel_ratio * (fresh + burnt_share * (1.0 - burning)),
+            burnt_share * burning * (1.0 + self.air_fuel_ratio),
+        )
+        constants = self.fuel_constant, self.air_constant, self.burnt_constant
+        moles = [mass / whole * R for mass, R in zip(masses, constants, strict=True)]
+        constant = sum(moles)
+
+        def mixed(*parts: tuple[float, ...]) -> tuple[float, ...]:
+            return tuple(
+                sum(n * a for n, a in zip(moles, coefficients, strict=True)) / constant
+                for coefficients in zip(*parts, strict=True)
+            )
+
+        return replace(
+            self,
+            gas_constant=constant,
+            low=mixed(self.fuel_low, self.air_low, self.burnt_low),
+            high=mixed(self.fuel_high, self.air_high, self.burnt_high),
+            equivalence_ratio=equivalence_ratio,
+            burnt_share=burnt_share,
+        )
+
+
+@dataclass(frozen=True)
+class BurningGas(ChargeGas):
+    """Ideal gas of fuel, air and burnt gas, whose composition follows the combustion.
+
+    Each part is a gas as of :class:`MixtureGas`, and their masses in the chamber weight them: heat
+    capacity, energy and the number of moles change as the charge burns, and with what is retained.
+    :meth:`saleg.fuels.RealFuel.burning_gas` makes it. Chambers let no gas in or out but in an
+    instant: :class:`InstantExchange`, :class:`NoLeak`.
+
+    Parameters
+    ----------
+    gas_constant, low, high, air_fuel_ratio, equivalence_ratio, burnt_share : float, tuple of float
+        Of a fresh charge, as of :class:`ChargeGas`, for the start of a run [J/kg/K, -].
+    fuel_constant, air_constant, burnt_constant : float
+        Specific gas constants of the parts [J/kg/K].
+    fuel_low, fuel_high, air_low, air_high, burnt_low, burnt_high : tuple of float, shape (5,)
+        Coefficients of the parts below and above 1000 K [-, 1/K, ... 1/K^4].
+    """
+
+    states = ("contents",)
+    follows_composition: ClassVar[bool] = True
 
     def heat_capacity_of(self, T: float, parts: Parts) -> float:
         """Heat capacity of parts of the gas at constant volume [J/K]."""

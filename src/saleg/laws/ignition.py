@@ -20,6 +20,9 @@ ATMOSPHERE = 101325.0
 AIR = 0.02885
 METHANE = 0.016043
 OXYGEN_IN_AIR = 0.21
+#: Source of the ranges of a table, and how far an air-fuel ratio may be from its fuel's.
+TABLE = "its table"
+SAME_FUEL = 0.05
 HE = "He et al., Combust. Flame 142:266 (2005)"
 
 
@@ -154,6 +157,8 @@ class SparkAtClearance(Ignition):
         Clearance between crown and head at the spark [m]; a controller may have it come earlier.
     """
 
+    is_timed: ClassVar[bool] = True
+
     clearance: float = quantity("m", default=0.020, low=0, usual=LENGTH)
 
     def rate(self, gas: Gas, charge: Charge) -> float:
@@ -175,6 +180,8 @@ class SparkAfterDelay(Ignition):
         Time from port closing to the spark [s].
     """
 
+    is_timed: ClassVar[bool] = True
+
     delay: float = quantity("s", default=7e-3, low=0, open_low=True, usual=(1e-5, 0.2))
 
     def rate(self, gas: Gas, charge: Charge) -> float:
@@ -188,13 +195,21 @@ class SparkBeforeDeadCentre(Ignition):
 
     No crank tells where the dead centre will be. Counted is from the last one, as if the stroke
     were to last as long as the one before it; in a steady engine with two equal cylinders it does.
-    A dead centre foreseen nearer than `advance` as the ports close has the spark at once.
+    Where the strokes either way differ by more than 1 %, ``run.range_exits`` says so; an engine
+    with one cylinder, whose strokes always do, is refused. A dead centre foreseen nearer than
+    `advance` as the ports close has the spark at once. A piston that turns before the spark leaves
+    its charge unlit, so engines that fire unevenly may stay so with late sparks: in the thesis'
+    base case with less than some 1 ms.
 
     Parameters
     ----------
     advance : float
         Time from the spark to the dead centre foreseen [s].
     """
+
+    is_timed: ClassVar[bool] = True
+    foresees_dead_centre: ClassVar[bool] = True
+    valid_for = (Validity("stroke_ratio", 0.99, 1.01, "strokes either way are alike"),)
 
     advance: float = quantity("s", default=1e-3, low=0, usual=(1e-5, 0.2))
 
@@ -254,6 +269,8 @@ class TabulatedDelay(Ignition):
         Delays [s], equivalence ratio running fastest, then temperature, pressure, burnt share.
     burnt_shares : tuple of float
         Shares of burnt gas in the charge by mass, rising [-].
+    air_fuel_ratio : float
+        Stoichiometric air-fuel ratio of the fuel of the table by mass [-]; 0 if not said.
     """
 
     pressures: tuple[float, ...] = series(
@@ -268,6 +285,7 @@ class TabulatedDelay(Ignition):
         length="burnt_shares*pressures*temperatures*equivalence_ratios",
     )
     burnt_shares: tuple[float, ...] = series("-", default=(0.0,), low=0, high=1, rising=True)
+    air_fuel_ratio: float = quantity("-", default=0.0, low=0)
 
     derived: ClassVar[tuple[str, ...]] = (
         "ln_pressures",
@@ -302,6 +320,21 @@ class TabulatedDelay(Ignition):
     def temperature_slopes(self) -> tuple[float, ...]:
         """Slopes of those logarithms over -1/T [K]."""
         return slopes(self.cold_to_hot, self.ln_delays, len(self.equivalence_ratios))
+
+    @property
+    def ranges(self) -> tuple[Validity, ...]:
+        """The table, and the fuel it was made for."""
+        axes = {
+            "pressure": self.pressures,
+            "temperature": self.temperatures,
+            "equivalence_ratio": self.equivalence_ratios,
+            "burnt_share": self.burnt_shares,
+        }
+        table = tuple(Validity(name, axis[0], axis[-1], TABLE) for name, axis in axes.items())
+        if self.air_fuel_ratio <= 0.0:
+            return table
+        least, most = (self.air_fuel_ratio * (1.0 + off) for off in (-SAME_FUEL, SAME_FUEL))
+        return *table, Validity("air_fuel_ratio", least, most, "the fuel of its table")
 
     def rate(self, gas: Gas, charge: Charge) -> float:
         """Rate of the ignition integral [1/s]: one over the delay."""

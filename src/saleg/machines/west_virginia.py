@@ -63,6 +63,7 @@ MACHINE = PublishedMachine(
         OpenQuantity("gas_exchange.intake_width", 0.011, 0.046, "a fifth of the circumference"),
         OpenQuantity("gas_exchange.displacement", 0.0, 0.9, "between mixing and displacement"),
         OpenQuantity("port_closing", 0.019, 0.031, "printed; 31 mm if measured from the far end"),
+        OpenQuantity("equivalence_ratio", 0.5, 0.6, "releases the 25 J a stroke that are given"),
     ),
     published=(Published("power", 309.0),),
 )

@@ -15,10 +15,10 @@ from saleg.plotting.cycle import NoCycle
 from saleg.plotting.energy import balance_of
 from saleg.reporting import charts
 from saleg.reporting.subject import Subject
+from saleg.simulation.nearest import NearestMachine
 from saleg.simulation.readable import readable
 from saleg.simulation.report import describe_exits, figure_rows, scavenging_rows
 from saleg.simulation.run import Run
-from saleg.simulation.validity import NearestMachine
 from saleg.studies.elasticities import elasticities
 
 #: Colours of an elasticity of +1 and of -1, and the elasticity of the full colour.
@@ -197,11 +197,10 @@ def validity(subject: Subject) -> str:
 def support(nearest: NearestMachine) -> str:
     """What the nearest published machine supports, and our deviations from its results."""
     off = [
-        f"{name} of that machine: ours is {100.0 * part:+.1f} % off"
+        f"{name}: {nearest.whose} is {100.0 * part:+.1f} % off"
         for name, part in nearest.deviations.items()
     ]
-    kind = "measured" if nearest.is_measured else "simulated by its source"
-    told = f"Nearest is {nearest.name}, {kind}. "
+    told = f"Nearest is {nearest.name}, {nearest.kind}. "
     if nearest.differences:
         told += (
             f"This engine is not like it: {'; '.join(nearest.differences)}. It supports nothing."

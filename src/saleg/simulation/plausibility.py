@@ -169,3 +169,8 @@ def _judged(
     released, gained = both(cycle["heat_released"]), -both(cycle["heat_lost"])
     heated = (gained > released) & (released > 0.0)
     yield heated, "heat from the walls", gained, np.nan, "J", HEATED_BY_WALLS
+    for side, (here, there) in enumerate((("left", "right"), ("right", "left"))):
+        fuelled = (cycle["fuel_energy"][..., side] > 0.0) & (released > 0.0)
+        silent = fuelled & (cycle["heat_released"][..., side] <= 0.0)
+        told = f"the {here} cylinder has fuel and does not fire, while the {there} one does"
+        yield silent, f"heat in the {here} cylinder", 0.0, np.nan, "J", told

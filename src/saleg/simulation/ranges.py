@@ -18,7 +18,13 @@ VALIDITY_UNITS = {
     "pressure": "Pa",
     "mean_piston_speed": "m/s",
     "equivalence_ratio": "-",
+    "burnt_share": "-",
+    "air_fuel_ratio": "-",
+    "stroke_ratio": "-",
 }
+#: Part of what an ignition integral comes to from which on its law counts as at work: what is
+#: added before, by cold gas, decides nothing.
+FIRST_OF_INTEGRAL = 1e-3
 COLUMNS = {
     "side": "-",
     "slot": "-",
@@ -57,7 +63,7 @@ def range_exits(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> lis
 def _rows(engine: Engine, strokes: np.ndarray, history: np.ndarray) -> Iterator[dict[str, Any]]:
     for side, (name, chamber) in enumerate(zip(("left", "right"), engine.chambers, strict=True)):
         for slot, law in chamber.laws.items():
-            for validity in law.valid_for:
+            for validity in law.ranges:
                 weights = _time_at_work(slot, history, side)
                 values = _values(engine, strokes, history, side, validity.quantity)
                 found = _exit(law, validity, np.broadcast_to(values, len(history)), weights)
@@ -94,7 +100,8 @@ def _time_at_work(slot: str, history: np.ndarray, side: int) -> np.ndarray:
     closed = history["mode"][:, side] != layout.OPEN
     if slot == "ignition":
         integral = history["ignition"][:, side]
-        closed &= (integral > 0.0) & (integral < 1.0)
+        least = FIRST_OF_INTEGRAL * min(float(integral.max(initial=0.0)), 1.0)
+        closed &= (integral > least) & (integral < 1.0)
     return np.where(closed, _widths(history["t"]), 0.0)
 
 
@@ -118,8 +125,16 @@ def _values(
         return float(
             np.abs(strokes["x_end"] - strokes["x_start"]).sum() / strokes["duration"].sum()
         )
+    if quantity == "burnt_share":
+        return history["burnt"][:, side] / history["mass"][:, side]
+    if quantity == "stroke_ratio":
+        inward = strokes["direction"] == (-1.0, 1.0)[side]
+        return float(strokes["duration"][inward].sum() / strokes["duration"][~inward].sum())
+    cylinder: Any = engine.chambers[side]
     if quantity == "equivalence_ratio":
-        return float(engine.chambers[side].equivalence_ratio)  # type: ignore[attr-defined]
+        return float(cylinder.equivalence_ratio)
+    if quantity == "air_fuel_ratio":
+        return float(cylinder.fuel.air_fuel_ratio)
     raise ValueError(
         f"a law cannot be valid for '{quantity}': there are {', '.join(VALIDITY_UNITS)}"
     )
