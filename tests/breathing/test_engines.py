@@ -92,7 +92,7 @@ def test_a_fixed_point_is_where_waiting_leads(breathing):
 
 
 def test_a_single_piston_engine_with_crankcase_and_walls_is_solved(crankcase):
-    steady, run = saleg.steady_state(crankcase), saleg.simulate(crankcase, 25.0)
+    steady, run = saleg.steady_state(crankcase), saleg.simulate(crankcase, 40.0)
     assert steady.status is Status.STEADY, steady.message
     assert steady.performance.power == pytest.approx(run.performance.power, rel=1e-5)
     assert steady.stable
