@@ -671,6 +671,10 @@ def test_a_demand_from_a_file_and_from_arrays(tmp_path):
         Demand.read(path)
     for part in ("4 wrong fields", "'h' is no unit here", "'hp' is", "line 3", "line 4"):
         assert part in str(caught.value)
+    for heads in ("t,P [kW", "t,P_KW", "minutes,W", "kW,ms", "power,time"):
+        path.write_text(f"{heads}\n0,3.9\n")
+        with pytest.raises(InvalidController, match="line 1"):  # before, read in SI
+            Demand.read(path)
     path.write_text("0,3.9 kW\n1,1900\n")
     with pytest.raises(InvalidController, match="line 1"):  # before, taken for heads
         Demand.read(path)

@@ -10,6 +10,7 @@ import saleg
 from agreement import ORBIT_ONLY, assert_agree, assert_balanced, assert_rows_agree
 from fuel_cases import energy
 from saleg import fuels, laws, reference
+from saleg.engine.start import charge_mass
 from saleg.fuels.species import MOLAR_GAS_CONSTANT
 from saleg.kernel import layout
 
@@ -197,3 +198,28 @@ def test_fuel_can_be_metered_by_heat(hydrogen):
     """The heat asked for is what is injected, though the charge has no fuel as it closes."""
     run = saleg.simulate(fuels.fill(hydrogen, fuels.hydrogen, heat=600.0, follows=True), 0.03)
     assert run.strokes["fresh_fuel_energy"][-1].max() == pytest.approx(600.0, rel=1e-10)
+
+
+def test_heat_is_that_of_the_whole_charge_with_what_is_retained(hydrogen):
+    """Half of what did not burn is retained: it counts as fuel of the next charge."""
+    leaky = hydrogen.replace(egr=0.5, combustion_efficiency=0.8)
+    steady = saleg.steady_state(fuels.fill(leaky, fuels.hydrogen, heat=600.0, follows=True))
+    burnt = 0.8 * hydrogen.left.heat_release.burnt_fraction(1.0)
+    assert steady.strokes["heat_released"].sum(axis=0) == pytest.approx(600.0 * burnt, rel=1e-6)
+
+
+def test_a_gas_of_another_way_of_mixing_is_told(base, hydrogen):
+    mixed = fuels.fill(base, fuels.hydrogen, equivalence_ratio=0.5)
+    injection = hydrogen.left.injection
+    left, right = (dataclasses.replace(one, injection=injection) for one in mixed.chambers)
+    (told, _) = dataclasses.replace(mixed, left=left, right=right).unusual()
+    assert told.path == "left.injection"
+    assert "another way of mixing" in str(told)
+    assert not mixed.replace(injection=injection).unusual()  # its gas follows
+
+
+def test_a_charger_delivers_no_fuel_that_is_injected(direct):
+    steady = saleg.steady_state(direct)
+    closed_on = sum(charge_mass(one) * (1.0 - one.gas_exchange.egr) for one in direct.chambers)
+    wanted = closed_on * steady.performance.frequency
+    assert steady.net_output().delivered == pytest.approx(wanted, rel=1e-6)

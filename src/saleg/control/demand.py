@@ -15,6 +15,11 @@ from saleg.files.units import UNITS, UnitError, head_of, to_si
 from saleg.laws.usual import POWER, TIME
 from saleg.quantities import Problem, Quantities, problems, series
 
+#: What a head may end in to be read as a unit, or refused as none of its quantity.
+LIKE_UNITS = {unit.casefold() for si_unit in ("s", "W") for unit in (si_unit, *UNITS[si_unit])}
+LIKE_UNITS |= {"seconds", "minutes", "hours", "watts"}
+TIME_HEADS, POWER_HEADS = ("t", "time", "times"), ("p", "power", "powers")
+
 
 @dataclass(frozen=True)
 class Demand(Quantities):
@@ -120,11 +125,17 @@ def _scales(where: str, heads: list[str], wrong: list[Problem]) -> list[float]:
         wrong.append(Problem(where, ",".join(heads), "", "must be heads of times and powers"))
         return [1.0, 1.0]
     scales = []
+    names = [head_of(head)[0].casefold() for head in heads]
+    if names[0] in POWER_HEADS and names[1] in TIME_HEADS:
+        wrong.append(Problem(where, ",".join(heads), "", "must be times, then powers"))
     for head, si_unit in zip(heads, ("s", "W"), strict=True):
         try:
             name, unit = head_of(head)
+            if set(name) & set("[]()"):
+                raise UnitError("has a bracket without its other half")
             last = re.split(r"[\s_/]+", name)[-1]  # as in "P_kW"
-            scales.append(to_si(unit or last * (last in UNITS[si_unit]), si_unit)[0])
+            is_one = last.casefold() in LIKE_UNITS
+            scales.append(to_si(unit or last * is_one, si_unit)[0])
         except UnitError as error:
             wrong.append(Problem(where, head, "", str(error)))
             scales.append(1.0)

@@ -79,9 +79,18 @@ def retained_share(chamber: Any) -> Any:
 
 
 def is_gas_of_charge(chamber: Any) -> Any:
-    """Whether a gas is that of its chamber's equivalence ratio; of columns, in each row."""
+    """Whether a gas is that of its chamber's charge; of columns, in each row."""
     gas = _known_gas(chamber)
-    return gas is None or gas.equivalence_ratio == chamber.equivalence_ratio
+    if gas is None or _is_of_other_mixing(gas, chamber):
+        return gas is None
+    return gas.equivalence_ratio == chamber.equivalence_ratio
+
+
+def _is_of_other_mixing(gas: ChargeGas, chamber: Any) -> bool:
+    """Whether a gas has its fuel where the chamber has none as its ports close, or the reverse."""
+    charge, direct = (gas.equivalence_ratio, gas.burnt_share), _is_direct(chamber)
+    other = gas.for_charge(*charge, direct=not direct)
+    return bool(gas == other and gas != gas.for_charge(*charge, direct=direct))
 
 
 def is_gas_of_fuel(chamber: Any) -> Any:
@@ -94,7 +103,7 @@ def is_gas_of_fuel(chamber: Any) -> Any:
 
 
 def other_gases(engine: Any) -> Iterator[Problem]:
-    """Charges of an engine whose gas is that of another equivalence ratio, and what that does."""
+    """Charges of an engine whose gas is that of another one, and what that does."""
     for side in SIDES:
         chamber = getattr(engine, side)
         gas = _known_gas(chamber)
@@ -102,11 +111,14 @@ def other_gases(engine: Any) -> Iterator[Problem]:
             continue
         own = gas.for_charge(chamber.equivalence_ratio, gas.burnt_share, direct=_is_direct(chamber))
         more = 100.0 * (own.gas_constant / gas.gas_constant - 1.0)
+        kept, path = f"{gas.equivalence_ratio:g}", "equivalence_ratio"
+        if _is_of_other_mixing(gas, chamber):
+            kept, path = "another way of mixing", "injection"
         told = (
-            f"gas_properties is the gas of {gas.equivalence_ratio:g}, with which a charge holds "
+            f"gas_properties is the gas of {kept}, with which a charge holds "
             f"{more:+.2g} % of mass and fuel; saleg.fuels.fill sets both"
         )
-        yield Problem(f"{side}.equivalence_ratio", chamber.equivalence_ratio, "-", told)
+        yield Problem(f"{side}.{path}", getattr(chamber, path), "-", told)
 
 
 def _known_gas(chamber: Any) -> ChargeGas | None:

@@ -420,5 +420,6 @@ def _law_problems(engine: Engine) -> list[Problem]:
 def _kind_problem(value: Any, kind: type, path: str) -> list[Problem]:
     if isinstance(value, kind):
         return []
+    article = "an" if kind.__name__[0] in "AEIOU" else "a"
     hint = "; saleg.fuels.fill sets fuel and gas" if kind is Fuel else ""
-    return [Problem(path, value, "-", f"must be a {kind.__name__}{hint}")]
+    return [Problem(path, value, "-", f"must be {article} {kind.__name__}{hint}")]

@@ -252,19 +252,18 @@ def standard_charge(cylinder: Any) -> tuple[float, float, float, float]:
     if phi <= 0.0:
         return mass, 0.0, mass, 0.0
     egr = getattr(cylinder.gas_exchange, "egr", 0.0)
-    burnt_per_fuel = (
-        (1.0 + ratio) * burning_share(cylinder) * min(1.0, 1.0 / phi) * egr / (1.0 - egr)
-    )
+    burns = burning_share(cylinder) * min(1.0, 1.0 / phi)
     gas, is_direct = cylinder.gas_properties, cylinder.injection.is_direct
-    # What the ports close on, over the fuel: with direct injection that comes later.
-    parts = (0.0 if is_direct else 1.0, ratio / phi, burnt_per_fuel)
+    # What the ports close on, over the fuel: with direct injection only what did not burn before.
+    fuel_then = egr * (1.0 - burns) if is_direct else 1.0
+    parts = fuel_then, ratio / phi, (1.0 + ratio) * burns * egr / (1.0 - egr)
     whole = sum(parts)
     if gas.follows_composition:
         constant = sum(part * R for part, R in zip(parts, gas.gas_constants, strict=True)) / whole
         mass *= gas.gas_constant / constant
     fuel = mass / whole
-    mass = mass + fuel if is_direct else mass
-    return mass, fuel, fuel * ratio / phi, fuel * burnt_per_fuel
+    mass += fuel * (1.0 - fuel_then)
+    return mass, fuel, fuel * parts[1], fuel * parts[2]
 
 
 def burning_share(cylinder: Any) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -43,6 +43,8 @@ class NearestMachine:
     deviations : dict of str to float
         From each of its published results [-], but those used to set the engine: of this result
         where the engine is that machine, else of our engine of it.
+    here : dict of str to float
+        The same of this result, whatever the engine; at one setting of the machine only.
     """
 
     name: str
@@ -50,6 +52,7 @@ class NearestMachine:
     is_it: bool
     differences: tuple[str, ...]
     deviations: dict[str, float]
+    here: dict[str, float] = field(compare=False)
 
     @property
     def supported(self) -> tuple[str, ...]:
@@ -75,10 +78,18 @@ class NearestMachine:
             return (
                 f"supported by no published machine; nearest is {self.name} ({self.kind}): {told}"
             )
-        results = ", ".join(f"{name} {100.0 * off:+.1f} %" for name, off in self.deviations.items())
         supported = ", ".join(self.supported) or "nothing"
-        told = f"supports {supported}; {self.whose}: {results or 'nothing published for it'}"
+        results = _in_per_cent(self.deviations) or "nothing published for it"
+        told = f"supports {supported}; {self.whose}: {results}"
+        if not self.is_it and self.here:
+            told += (
+                f"; this result beside what is published of the machine: {_in_per_cent(self.here)}"
+            )
         return f"nearest published machine {self.name} ({self.kind}) {told}"
+
+
+def _in_per_cent(deviations: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {100.0 * off:+.1f} %" for name, off in deviations.items())
 
 
 class _Number(NamedTuple):
@@ -127,9 +138,10 @@ def nearest_machine(
         differences.append("this one does not run on fuel")
     elif seen is not None:
         differences += _not_held(performance, machine)
-    deviations = _judged(machine) if seen is None else _results(seen, performance, machine)
+    here = _results(_engine_of(name) if seen is None else seen, performance, machine)
+    deviations = _judged(machine) if seen is None else here
     return NearestMachine(
-        name, machine.is_measured, seen is not None, tuple(differences), deviations
+        name, machine.is_measured, seen is not None, tuple(differences), deviations, here
     )
 
 

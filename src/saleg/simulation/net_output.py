@@ -117,7 +117,7 @@ def net_output_of(
 
 
 def _delivered(engine: Engine, cycle: np.ndarray, side: int) -> float:
-    """Fresh gas that an intake delivers in a cycle [kg], with its fuel."""
+    """Fresh gas that an intake delivers in a cycle [kg], with the fuel mixed into it."""
     chamber = engine.chambers[side]
     if not isinstance(chamber, Cylinder):
         return 0.0
@@ -127,7 +127,12 @@ def _delivered(engine: Engine, cycle: np.ndarray, side: int) -> float:
     if not (out > chamber.port_closing).any():
         return 0.0
     retained = getattr(chamber.gas_exchange, "egr", 0.0)
-    return float(cycle["charge_mass"][-1, side]) * (1.0 - retained)
+    closed_on = float(cycle["charge_mass"][-1, side])
+    if chamber.injection.is_direct:
+        closed_on -= (
+            float(cycle["fresh_fuel_energy"][:, side].sum()) / chamber.fuel.lower_heating_value
+        )
+    return closed_on * (1.0 - retained)
 
 
 def _specific_work(engine: Engine, side: int, beside: Auxiliaries) -> float:
