@@ -41,7 +41,7 @@ def limits_exceeded(engine: Any, found: Iterable[Problem]) -> list[Problem]:
     found : iterable of Problem
         What is wrong by itself.
     """
-    sides = ("", "") if engine.is_mirrored else ("left.", "right.")
+    sides = ("",) if engine.is_mirrored else ("left.", "right.")
     wrong, exceeded = paths_of(engine, found), list[Problem]()
     for family, fields in FAMILIES:
         for side, prefix in enumerate(sides):
