@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from saleg.compiler import machine_code
+from saleg.compiler import definitions, machine_code
 from saleg.compiler.cache import Kept, usable_folder, warn_of_no_cache
 from saleg.errors import LawError
 from saleg.files.atomic import write_text
@@ -104,7 +104,7 @@ def _execute(text: str, stem: str, filename: str, names: dict[str, Any] | None) 
     module.__file__ = filename
     module.__dict__.update(names or {}, INNER=machine_code.inner_compiler())
     sys.modules[stem] = module
-    exec(compile(text, filename, "exec"), module.__dict__)
+    definitions.execute(text, module)
     return module
 
 
