@@ -36,8 +36,9 @@ FEW_MAPS = 12
 # any, and over its distance from the nearer of its neighbours, had both a straight line between.
 FARTHEST_BESIDE = 0.1
 FARTHEST_OVER_WAY = 0.5
-# Residual, over the one asked for, up to which an interpolated point is itself taken as the orbit.
-AT_ONCE = 0.5
+# Residual of a search along a line, over the one asked for: it may be that of the cycle recorded,
+# not of the map before, and others begin from where it ends.
+FINER_BESIDE = 0.5
 
 
 class Searches(NamedTuple):
@@ -236,13 +237,11 @@ def ends_beside(searches, row, mapping, tolerance, iterates):
 
 
 @inline
-def has_first_half(searches, row, mapping, tolerance, iterates):
+def has_first_half(searches, row, mapping, iterates):
     """Whether the map that has just ended a search along a line is the first half of its cycle."""
-    found = searches.found[row]
     at_once = mapping.mirrored and iterates.counts[0] == 0
-    at_once = at_once and found.residual <= AT_ONCE * tolerance
     if at_once:
-        found.maps = 0.0
+        searches.found[row].maps = 0.0
     searches.at_once[row] = at_once
     return at_once
 
@@ -256,11 +255,11 @@ def follow(searches, row, mapping, tolerance, iterates):
     found = searches.found[row]
     if not begin_on_line(searches, row, mapping, iterates):
         return False
-    if settle(mapping, FEW_MAPS, tolerance, iterates, found) != END_OF_TIME:
+    if settle(mapping, FEW_MAPS, FINER_BESIDE * tolerance, iterates, found) != END_OF_TIME:
         return False
     if not ends_beside(searches, row, mapping, tolerance, iterates):
         return False
-    if has_first_half(searches, row, mapping, tolerance, iterates):
+    if has_first_half(searches, row, mapping, iterates):
         return second_half(mapping, iterates, found) == END_OF_TIME
     return whole_cycle(mapping, iterates, found) == END_OF_TIME
 

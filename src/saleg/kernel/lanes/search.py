@@ -26,6 +26,7 @@ from saleg.kernel.orbit import (
 )
 from saleg.kernel.orbits import (
     FEW_MAPS,
+    FINER_BESIDE,
     MOST_BEFORE,
     begin_anew,
     begin_on_line,
@@ -137,9 +138,10 @@ def is_over(searches, row, mapping, iterates, code, max_maps, tolerance):
     """Judge the map just taken; whether it was the last, the engine put down then."""
     run, found = mapping.integration, searches.found[row]
     followed = searches.followed[row]
+    wanted = FINER_BESIDE * tolerance if followed else tolerance
     run.options[0].peaks = 0  # none but the first map may be recorded
     code = end_return(run, mapping.mirrored, code)
-    if code == END_OF_TIME and not has_settled(run, mapping.mirrored, tolerance, iterates, found):
+    if code == END_OF_TIME and not has_settled(run, mapping.mirrored, wanted, iterates, found):
         if iterates.counts[0] < (FEW_MAPS if followed else max_maps):
             return False
         code = NOT_FOUND
@@ -147,7 +149,7 @@ def is_over(searches, row, mapping, iterates, code, max_maps, tolerance):
         if code != END_OF_TIME or not ends_beside(searches, row, mapping, tolerance, iterates):
             begin_own(searches, row, mapping, iterates)
             return False
-        if has_first_half(searches, row, mapping, tolerance, iterates):
+        if has_first_half(searches, row, mapping, iterates):
             keep_begin(searches, row, run, 0)
             keep_stroke(searches, row, 0, run)
     searches.codes[row] = code
@@ -156,9 +158,9 @@ def is_over(searches, row, mapping, iterates, code, max_maps, tolerance):
 
 
 @compiled
-def search_all(lanes, mirrored, max_maps, tolerance, searches):
-    """Look for the fixed point of every engine."""
-    begun, busy, rows = FIRST, True, lanes.row
+def search_all(lanes, mirrored, max_maps, tolerance, searches, begun, end):
+    """Look for the fixed points of engines from one place in their order to another."""
+    busy, rows = True, lanes.row
     while busy:
         busy = False
         for lane in range(rows.shape[0]):
@@ -168,8 +170,8 @@ def search_all(lanes, mirrored, max_maps, tolerance, searches):
                 rows[lane] = -1
         for lane in range(rows.shape[0]):
             mapping, iterates = mapping_of(lanes, lane, mirrored), iterates_of(lanes, lane)
-            next_one = begun < searches.order.shape[0]
-            if rows[lane] < 0 and next_one and may_begin(searches, searches.order[begun]):
+            free = rows[lane] < 0 and begun < end
+            if free and may_begin(searches, searches.order[begun]):
                 rows[lane], begun = searches.order[begun], begun + 1
                 begin_row(searches, rows[lane], mapping, iterates)
             if rows[lane] >= 0:
@@ -227,20 +229,20 @@ def end_second_half_of(searches, row, mapping, iterates, code):
 
 
 @compiled
-def next_found(searches, begun, at_once):
+def next_found(searches, begun, end, at_once):
     """Place of the next engine whose fixed point has been found, with its first half or without."""
-    count = searches.codes.shape[0]
-    while begun < count and (
-        searches.codes[begun] != END_OF_TIME or searches.at_once[begun] != at_once
-    ):
+    while begun < end:
+        row = searches.order[begun]
+        if searches.codes[row] == END_OF_TIME and searches.at_once[row] == at_once:
+            break
         begun += 1
     return begun
 
 
 @compiled
-def take_all_cycles(lanes, searches, at_once):
+def take_all_cycles(lanes, searches, at_once, begun, end):
     """Take the whole cycle, or what there is not yet of it, of every engine found."""
-    begun, busy = next_found(searches, FIRST, at_once), True
+    begun, busy = next_found(searches, begun, end, at_once), True
     while busy:
         busy = False
         for lane in range(lanes.row.shape[0]):
@@ -251,23 +253,40 @@ def take_all_cycles(lanes, searches, at_once):
             elif row >= 0:
                 end_cycle_of(searches, row, mapping, iterates, code)
             lanes.row[lane] = -1
-            if begun < searches.codes.shape[0]:
+            if begun < end:
+                row = searches.order[begun]
                 if at_once:
-                    begin_second_half_of(searches, begun, mapping, iterates)
+                    begin_second_half_of(searches, row, mapping, iterates)
                     go_on(lanes, lane, mapping)
                 else:
-                    begin_cycle_of(searches, begun, mapping, iterates)
+                    begin_cycle_of(searches, row, mapping, iterates)
                     set_out(lanes, lane, mapping)
-                lanes.row[lane], busy = begun, True
-                begun = next_found(searches, begun + 1, at_once)
+                lanes.row[lane], busy = row, True
+                begun = next_found(searches, begun + 1, end, at_once)
         if busy:
             run_at(lanes.address, lanes.group)
 
 
+@compiled
+def own_starts(searches):
+    """How many engines begin from their own starts; they are the first in order."""
+    count = FIRST
+    for row in range(searches.order.shape[0]):
+        count += searches.before[row, 0] < 0
+    return count
+
+
 @cached
 def find_orbits_side_by_side(lanes, mirrored, max_maps, tolerance, searches):
-    """Entry point: look for the fixed point of every engine."""
-    search_all(lanes, mirrored, max_maps, tolerance, searches)
-    take_all_cycles(lanes, searches, NOTHING_IS_KNOWN)
-    take_all_cycles(lanes, searches, HALF_IS_KNOWN)
+    """Entry point: look for the fixed point of every engine.
+
+    Those from which lines begin have their cycles first: at its end a state is nearer to the fixed
+    point than where the search has left it, and what lies between two such states nearer too.
+    """
+    own, end = own_starts(searches), FIRST + searches.order.shape[0]
+    search_all(lanes, mirrored, max_maps, tolerance, searches, FIRST, own)
+    take_all_cycles(lanes, searches, NOTHING_IS_KNOWN, FIRST, own)
+    search_all(lanes, mirrored, max_maps, tolerance, searches, own, end)
+    take_all_cycles(lanes, searches, NOTHING_IS_KNOWN, own, end)
+    take_all_cycles(lanes, searches, HALF_IS_KNOWN, own, end)
     return 0
