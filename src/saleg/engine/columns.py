@@ -217,7 +217,8 @@ def _changed(engine: Engine, change: Callable[[Any], Any]) -> Engine:
         twin = object.__new__(type(node))
         held, fields = vars(twin), _fields(node)
         held.update(vars(node))
-        held.update((name, change(held[name])) for name in fields.numbers)
+        for name in fields.numbers:
+            held[name] = change(held[name])
         for name in fields.others:
             if _is_part(held[name]) and not (node is engine and name in left_out):
                 held[name] = copied(held[name])
