@@ -10,6 +10,9 @@ from pathlib import Path
 from saleg import optimize
 from saleg.optimize import Archive, Limit, Objective
 
+#: Score that is high enough, and designs of each search; a few hundred show the same.
+ENOUGH = 0.999
+DESIGNS = {"score": 1500, "efficiency": 500, "archive": 600, "front": 600}
 PICTURES = Path(__file__).resolve().parent.parent / "docs" / "images"
 
 
@@ -19,7 +22,7 @@ def main(folder: Path = PICTURES) -> None:
 
     # Compression ratio of 5 to 25, intake from 300 K and 1 bar, mixtures from 0.35 on (Table 11).
     problem = optimize.thesis_problem(target_power=4e3, compression_ratio=(5.0, 25.0))
-    found = optimize.optimize(problem, evaluations=1500, seed=11, stop_at=0.999)
+    found = optimize.optimize(problem, evaluations=DESIGNS["score"], seed=11, stop_at=ENOUGH)
     print(found)
     assert found.best["score"] > 0.99
     assert found.best["stable"]
@@ -28,7 +31,7 @@ def main(folder: Path = PICTURES) -> None:
     save(found.plot.design_map(), "map")
 
     # The score is met from 42 % on; within its limits there is more to win.
-    better = optimize.improve(found, "efficiency", evaluations=500, seed=11)
+    better = optimize.improve(found, "efficiency", evaluations=DESIGNS["efficiency"], seed=11)
     print(better)
     assert better.best["efficiency"] > found.best["efficiency"]
     assert abs(better.best["power"] / 4e3 - 1.0) <= 0.05
@@ -36,7 +39,8 @@ def main(folder: Path = PICTURES) -> None:
     save(better.plot.engine(), "engine", 120)
 
     # Where good designs are, and where there are none.
-    archive = optimize.optimize(problem, Archive(), evaluations=600, seed=1, start=found.table)
+    count = DESIGNS["archive"]
+    archive = optimize.optimize(problem, Archive(), evaluations=count, seed=1, start=found.table)
     save(archive.plot.archive(), "archive")
 
     # Efficiency against power density, from 3.5 kW on.
@@ -44,7 +48,8 @@ def main(folder: Path = PICTURES) -> None:
     limits = (Limit("power", 3.5e3), Limit("compression_ratio", 5.0, 25.0))
     limits += (Limit("peak_pressure", high=250e5),)
     two = problem.replace(objectives=goals, constraints=limits)
-    front = optimize.optimize(two, evaluations=600, seed=1, start=optimize.winners(better, two))
+    start, count = optimize.winners(better, two), DESIGNS["front"]
+    front = optimize.optimize(two, evaluations=count, seed=1, start=start)
     print(f"{len(front.front)} designs in front")
     save(front.plot.front(), "front")
 

@@ -13,6 +13,7 @@ import pytest
 
 import saleg
 from helpers import compiled_method
+from own_laws import faulty
 from saleg import InvalidEngine, LawError, UnknownPath
 from saleg.cli import main
 from saleg.compiler.compiled_engine import kernel_for
@@ -213,14 +214,8 @@ def test_tuples_and_annotations_are_fine():
     assert names["one_force"](record, motion) == law.force(motion) == 6.0
 
 
-@dataclasses.dataclass(frozen=True)
-class NanPower(saleg.laws.LinearLoad):
-    def electrical_power(self, held, motion):
-        return np.nan
-
-
 def test_a_law_that_returns_nan_is_a_step_failure(base):
-    run = saleg.simulate(base.replace(alternator=NanPower()), 0.1)
+    run = saleg.simulate(faulty(base, broken=1.0), 0.1)
     assert run.status is saleg.Status.STEP_FAILURE
     assert "NanPower.electrical_power returns nan at " in run.message
 

@@ -13,6 +13,19 @@ TEXT = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
 #: Examples that draw nothing.
 WITHOUT_PICTURES = {"03_export.py", "14_control_in_time.py", "19_direct_injection.py"}
 LARGEST = 150e3  # bytes
+#: Sizes of examples that are run smaller than they stand; as they stand by ``pytest -m long``.
+SMALLER = {
+    "10_optimise": {
+        "ENOUGH": 0.99,
+        "DESIGNS": {"score": 1500, "efficiency": 250, "archive": 250, "front": 250},
+    },
+}
+CASES = [pytest.param(path, SMALLER.get(path.stem, {}), id=path.stem) for path in EXAMPLES]
+CASES += [
+    pytest.param(path, {}, id=f"{path.stem} as it stands", marks=pytest.mark.long)
+    for path in EXAMPLES
+    if path.stem in SMALLER
+]
 
 
 def load(path):
@@ -23,12 +36,16 @@ def load(path):
     return module
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_example_runs_and_makes_the_pictures_of_the_docs(path, tmp_path, monkeypatch):
+@pytest.mark.parametrize(("path", "sizes"), CASES)
+def test_example_runs_and_makes_the_pictures_of_the_docs(path, sizes, tmp_path, monkeypatch):
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     monkeypatch.chdir(elsewhere)
-    load(path).main(tmp_path)
+    example = load(path)
+    for name, size in sizes.items():
+        assert type(getattr(example, name)) is type(size), name
+        monkeypatch.setattr(example, name, size)
+    example.main(tmp_path)
     assert not list(elsewhere.iterdir())
     made = sorted(tmp_path.glob("*.png"))
     assert bool(made) != (path.name in WITHOUT_PICTURES)

@@ -64,7 +64,7 @@ def _has_both_zeros(values: np.ndarray) -> bool:
 
 def row_of(value: Any, row: int) -> Any:
     """A value in one row: the number of a column as a float, anything else as it is."""
-    return float(np.asarray(value)[row]) if isinstance(value, Column) else value
+    return value.item(row) if isinstance(value, Column) else value
 
 
 def by_branch(

@@ -9,7 +9,7 @@ from saleg.batch.many import steady_row
 from saleg.design.many import DesignSolver
 from saleg.engine.columns import rows_of_columns
 from saleg.steady import many
-from saleg.steady.lines import CHECKED_EVERY, lines_among, no_lines
+from saleg.steady.lines import MOST_WEIGHT, OWN_EVERY, lines_among, no_lines
 from saleg.steady.many import Limits, searched
 from saleg.steady.solver import MAX_MAPS, MIRROR_MISSED, THOROUGH_STEPS, found_steady_state
 
@@ -71,16 +71,17 @@ def test_who_works_does_not_matter(base):
     assert again.power.equals(ordered.power)
 
 
-def test_where_a_line_leads_elsewhere_its_rows_begin_anew(base, monkeypatch):
-    """A row that is checked has come to another orbit: those before it count no more."""
-    ratios = np.linspace(0.4, 0.6, 2 * CHECKED_EVERY + 1)
+def test_where_a_line_leads_to_no_orbit_its_rows_begin_anew(base, monkeypatch):
+    """A row between two others was led elsewhere: those beside it count no more."""
+    ratios = np.linspace(0.4, 0.6, 2 * OWN_EVERY + 1)
     (rows,) = rows_of_columns(base, {"equivalence_ratio": ratios})
     found = many._Search.found
 
     def led_astray(self, lines):
         room, good = found(self, lines)
         if lines.any:
-            room.image[CHECKED_EVERY] += 1.0
+            room.image[OWN_EVERY // 2] += 1.0
+            good[OWN_EVERY // 2] = False
         return room, good
 
     followed = searched(rows, True, 1e-6, LIMITS)
@@ -89,34 +90,55 @@ def test_where_a_line_leads_elsewhere_its_rows_begin_anew(base, monkeypatch):
     monkeypatch.setattr(many, "lines_among", lambda numbers: no_lines(len(numbers)))
     apart = searched(rows, True, 1e-6, LIMITS)
     anew = doubted.half_cycles == apart.half_cycles
-    assert anew[: CHECKED_EVERY + 1].all()
+    assert anew[: OWN_EVERY + 1].all()
     assert (doubted.strokes[anew] == apart.strokes[anew]).all()
-    rest = slice(CHECKED_EVERY + 1, None)
+    rest = slice(OWN_EVERY + 1, None)
     assert (doubted.strokes[rest] == followed.strokes[rest]).all()
     assert followed.half_cycles.sum() < doubted.half_cycles.sum() < apart.half_cycles.sum()
 
 
+def test_a_row_between_two_orbits_begins_from_its_own_start(base, monkeypatch):
+    """Halfway between a line's orbit and another there is none: what is found there is doubted."""
+    ratios = np.linspace(0.4, 0.6, 5)
+    (rows,) = rows_of_columns(base, {"equivalence_ratio": ratios})
+    prepared = many.prepare_rows
+
+    def hot_at_the_end(rows, begun):
+        states, ready = prepared(rows, begun)
+        states.chambers["intake_temperature"][-1] += 40.0
+        return states, ready
+
+    monkeypatch.setattr(many, "prepare_rows", hot_at_the_end)
+    mixed = searched(rows, True, 1e-6, LIMITS)
+    monkeypatch.setattr(many, "lines_among", lambda numbers: no_lines(len(numbers)))
+    apart = searched(rows, True, 1e-6, LIMITS)
+    assert mixed.half_cycles[2] > apart.half_cycles[2]  # what led nowhere counts
+    assert (mixed.strokes[2:] == apart.strokes[2:]).all()
+
+
 def test_lines_of_a_grid_in_any_order():
-    """Along the input with the most values; their first rows along the other."""
+    """Along the input with the most values, each row in the middle between two found before."""
     bore, ratio = np.meshgrid(np.linspace(0.05, 0.07, 6), np.linspace(0.4, 0.9, 12), indexing="ij")
     numbers = np.column_stack(
         [bore.ravel(), ratio.ravel(), 2.0 * bore.ravel(), 0.0 * ratio.ravel()]
     )
     places = np.random.default_rng(0).permutation(len(numbers))
     lines = lines_among(numbers[places])
-    at = np.argsort(places)  # of each row of the grid
-    for n, row in enumerate(at.tolist()):
-        i, j = divmod(n, 12)
-        before = lines.before[row].tolist()
-        steps = [1, 2, 3, 4]
-        if j == 0:
-            wanted = [at[12 * (i - k)] if i >= k else -1 for k in steps]
-        else:
-            wanted = [at[n - k] if j >= k else -1 for k in steps]
-        assert before == wanted
-        assert lines.checked[row] == (j == 11 or (i == 5 and j == 0))
     done = np.argsort(lines.order)
-    assert all(done[b] < done[r] for r in range(72) for b in lines.before[r] if b >= 0)
+    for row, place in enumerate(places.tolist()):
+        i, j = divmod(place, 12)
+        before = lines.before[row][lines.before[row] >= 0]
+        if j in (0, 11):
+            assert len(before) == 0
+            assert lines.stretch[row] == -1
+            continue
+        beside = places[before]
+        assert (beside // 12 == i).all()
+        one, other = sorted(beside[:2] % 12)
+        assert one < j < other
+        assert abs((j - one) - (other - j)) <= 1
+        assert lines.ahead[row, : len(before)] == pytest.approx((j - beside % 12) / 11)
+        assert (done[before] < done[row]).all()
 
 
 def test_random_rows_are_on_no_line():
@@ -127,15 +149,24 @@ def test_random_rows_are_on_no_line():
     assert not lines_among(np.linspace(0.0, 1.0, 4)[:, None]).any
 
 
-def test_rows_far_apart_or_twice_the_same_are_not_extrapolated_across():
+def test_long_lines_have_rows_of_their_own_starts():
+    lines = lines_among(np.linspace(0.0, 1.0, 3 * OWN_EVERY + 5)[:, None])
+    own = np.flatnonzero(lines.before[:, 0] < 0)
+    assert own.tolist() == [0, OWN_EVERY, 2 * OWN_EVERY, 3 * OWN_EVERY, 3 * OWN_EVERY + 4]
+    assert lines.around(np.array([1])).nonzero()[0].tolist() == list(range(1, OWN_EVERY))
+
+
+def test_rows_twice_the_same_or_far_apart_magnify_no_errors():
+    """What stands there twice begins by itself; weights of an interpolation stay small."""
     place = np.array([0.0, 1.0, 2.0, 2.0, 3.0, 13.0, 14.0])
     lines = lines_among(place[:, None])
-    assert [[n for n in row if n >= 0] for row in lines.before.tolist()] == [
-        [],
-        [0],
-        [1, 0],
-        [],
-        [3],
-        [4],
-        [5, 4],
-    ]
+    assert (lines.before[3] == -1).all()
+    assert 3 not in lines.before
+    for row in (1, 2, 4, 5):
+        nodes = place[lines.before[row][lines.before[row] >= 0]]
+        assert nodes[:2].min() < place[row] < nodes[:2].max()
+        weights = [
+            np.prod([(place[row] - x) / (nodes[i] - x) for x in np.delete(nodes, i)])
+            for i in range(len(nodes))
+        ]
+        assert np.abs(weights).sum() <= MOST_WEIGHT

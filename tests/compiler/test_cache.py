@@ -13,27 +13,23 @@ from saleg.compiler.cache import usable_folder
 from saleg.files.atomic import write_text
 from saleg.files.lock import locked
 
-REPORT = """
-import json, sys
-import saleg
+SHOW = """
+import json
+def show(run, kernel, function):
+    print(json.dumps({
+        "hits": sum(function.stats.cache_hits.values()),
+        "misses": sum(function.stats.cache_misses.values()),
+        "name": kernel.module.__name__,
+        "frequency": run.performance.frequency,
+        "x": run.strokes["x_end"].tolist(),
+    }))
+"""
+
+REPORT = f"""{SHOW}
 from saleg.compiler.compiled_engine import kernel_for
-if whole:
-    run = saleg.simulate(engine, 0.06, rtol=1e-6)
-    stats = kernel_for(engine).module.run_on.stats
-    kernel = kernel_for(engine)
-else:
-    from saleg import reference
-    from saleg.compiler.text import REFERENCE
-    run = reference.simulate(engine, 0.06, rtol=1e-6, jitted=True)
-    kernel = kernel_for(engine, REFERENCE)
-    stats = kernel.module.rates_of_records.stats
-print(json.dumps({
-    "hits": sum(stats.cache_hits.values()),
-    "misses": sum(stats.cache_misses.values()),
-    "name": kernel.module.__name__,
-    "frequency": run.performance.frequency,
-    "x": run.strokes["x_end"].tolist(),
-}))
+run = saleg.simulate(engine, 0.06, rtol=1e-6)
+kernel = kernel_for(engine)
+show(run, kernel, kernel.module.run_on)
 """
 
 LAW = """
@@ -77,10 +73,9 @@ def script(tmp_path, code, cache, check=True):
     )
 
 
-def report(tmp_path, engine, cache, whole=True):
-    """What a process sees of a kernel: the whole one, or that of the reference, soon compiled."""
-    engine = textwrap.dedent(engine)
-    out = script(tmp_path, f"import saleg\n{engine}\nwhole = {whole}\n{REPORT}", cache)
+def report(tmp_path, engine, cache):
+    """What a process sees of a kernel."""
+    out = script(tmp_path, f"import saleg\n{engine}\n{REPORT}", cache)
     return json.loads(out.stdout.splitlines()[-1])
 
 
@@ -94,7 +89,7 @@ def cold(tmp_path_factory):
     cache = folder / "cache"
     environment = {**os.environ, "SALEG_CACHE_DIR": str(cache)}
     environment.pop("NUMBA_CACHE_DIR", None)
-    code = f"import saleg\n{BASE}\nwhole = True\n{REPORT}"
+    code = f"import saleg\n{BASE}\n{REPORT}"
     workers = [
         subprocess.Popen(
             [sys.executable, "-c", code],
@@ -138,27 +133,49 @@ def write_law(folder, factor=2.0, scale=1.0, extra="", name="mylaw", helper="myh
     (folder / f"{helper}.py").write_text(HELPER.format(scale=scale))
 
 
-CUSTOM = """
-from mylaw import MySprings
-engine = saleg.machines.thesis_base().replace(springs=MySprings())
+#: What is edited of a law: a constant of its own, its helper's, its text.
+EDITS = ({"factor": 2.2}, {"scale": 1.1}, {"extra": " * 1.1"})
+#: Laws in files of their own, in the kernel of the reference, which is compiled soonest.
+CUSTOM = f"""{SHOW}
+from importlib import import_module
+import saleg
+from saleg.compiler.compiled_engine import kernel_for
+from saleg.compiler.text import REFERENCE
+for number in range(count):
+    law = import_module(f"law_{{number}}").MySprings()
+    engine = saleg.machines.thesis_base().replace(springs=law)
+    run = saleg.reference.simulate(engine, 0.06, rtol=1e-6, jitted=True)
+    kernel = kernel_for(engine, REFERENCE)
+    show(run, kernel, kernel.module.rates_of_records)
 """
 
 
-def test_an_edited_law_helper_or_constant_recompiles(cold, tmp_path):
+def write_laws(folder, edits):
+    for number, edit in enumerate(edits):
+        write_law(folder, **edit, name=f"law_{number}", helper=f"helper_{number}")
+
+
+def reports(tmp_path, cache, count):
+    """What a process sees of the kernels of so many laws."""
+    out = script(tmp_path, f"count = {count}\n{CUSTOM}", cache)
+    return [json.loads(line) for line in out.stdout.splitlines()]
+
+
+def test_an_edited_law_helper_or_constant_recompiles(cold, base, tmp_path):
     cache, _ = cold
-    write_law(tmp_path)
-    base = report(tmp_path, BASE, cache, whole=False)
-    same = report(tmp_path, CUSTOM, cache, whole=False)
-    assert same["x"] == base["x"]
-    assert report(tmp_path, CUSTOM, cache, whole=False)["hits"] == 1
+    write_laws(tmp_path, [{}] * len(EDITS))
+    plain = saleg.reference.simulate(base, 0.06, rtol=1e-6, jitted=True)
+    (same,) = reports(tmp_path, cache, 1)
+    assert same["misses"] == 1
+    assert same["x"] == plain.strokes["x_end"].tolist()
+    assert reports(tmp_path, cache, 1)[0]["hits"] == 1
     seen = {same["name"]}
-    for edit in ({"factor": 2.2}, {"scale": 1.1}, {"extra": " * 1.1"}):
-        write_law(tmp_path, **edit)
-        edited = report(tmp_path, CUSTOM, cache, whole=False)
+    write_laws(tmp_path, EDITS)
+    for edited in reports(tmp_path, cache, len(EDITS)):
         assert edited["misses"] == 1
         assert edited["name"] not in seen
         seen.add(edited["name"])
-        assert edited["frequency"] > 1.005 * base["frequency"]
+        assert edited["frequency"] > 1.005 * plain.performance.frequency
 
 
 def test_engines_with_different_laws_in_one_process_never_mix(cold, tmp_path):
@@ -208,7 +225,12 @@ def test_a_folder_others_may_write_to_is_not_used(tmp_path, monkeypatch):
     monkeypatch.setenv("SALEG_CACHE_DIR", str(shared))
     with pytest.warns(RuntimeWarning, match="others may write"):
         assert usable_folder() is None
-    out = script(tmp_path, f"import saleg\n{BASE}\nwhole = False\n{REPORT}", shared)
+    code = """
+    import saleg
+    from saleg.compiler.controllers import control_of
+    assert control_of(saleg.Controller()).address != 0  # compiled sooner than an engine
+    """
+    out = script(tmp_path, code, shared)
     assert "others may write" in out.stderr
     assert list(shared.iterdir()) == []
 

@@ -304,17 +304,15 @@ def test_a_push_along_needs_to_know_neither_mass_nor_stiffness_nor_noise(at_rest
 # --- spark, and pressure of bounce chambers
 
 
-def test_a_spark_comes_earlier_by_the_way_commanded(transient):
-    spark = laws.SparkAtClearance(0.008)
-    left, right = (
-        dataclasses.replace(side, ignition=spark) for side in (transient.left, transient.right)
-    )
-    plant = Plant(dataclasses.replace(transient, left=left, right=right), 0.1)
+def test_a_spark_comes_earlier_by_the_way_commanded():
+    engine = saleg.machines.wvu()
+    assert engine.left.ignition == engine.right.ignition == laws.SparkAtClearance(0.004)
+    plant = Plant(engine, 0.1)
     while plant.running:
         plant.command(generator(plant.signals, spark_advance=0.002))
         plant.advance()
     heights = plant.run().strokes["ignition_height"][-2:].max(axis=0)
-    assert heights == pytest.approx(0.010, abs=1e-9)
+    assert heights == pytest.approx(0.006, abs=1e-9)
 
 
 def test_an_engine_filled_to_a_pressure_moves_as_one_built_with_it():

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import saleg
+from helpers import compiled_method
 from saleg.compiler.compiled_engine import kernel_for
 from saleg.compiler.controllers import control_of
 from saleg.compiler.slot_text import methods_text
@@ -103,9 +104,17 @@ def test_both_faces_of_an_earlier_law_are_those_of_todays(base):
         GAS, None
     )
     assert kernel_for(earlier).module.__file__ == kernel_for(todays).module.__file__
-    runs = [saleg.simulate(engine, 0.1) for engine in (earlier, todays)]
-    assert runs[0].performance.power > 1e3
-    np.testing.assert_array_equal(*(run.cycles.to_numpy() for run in runs))
+    for law, method, given in (
+        (EarlierHeatTransfer(), "coefficient", (GAS, None)),
+        (EarlierGas(), "gamma", (1200.0,)),
+        (EarlierGas(), "internal_energy", (1200.0,)),
+        (EarlierGas(), "breakpoint", ()),
+    ):
+        wanted = getattr(law, method)(*given)
+        assert compiled_method(law, method)(*given) == pytest.approx(wanted, rel=1e-14)
+    runs = [saleg.reference.simulate(engine, 0.03, rtol=1e-6) for engine in (earlier, todays)]
+    assert runs[0].strokes["electrical_energy"].max() > 20.0
+    np.testing.assert_array_equal(*(run.strokes for run in runs))
 
 
 def test_a_field_of_that_name_stays_the_laws_own():

@@ -181,7 +181,7 @@ def test_motored_pressure_changes_nothing(base):
 def test_frictionless_gas_spring_keeps_its_energy():
     from helpers import bounce_engine
 
-    run = reference.simulate(bounce_engine(), 0.1, rtol=1e-12, jitted=True)
+    run = reference.simulate(bounce_engine(), 0.1, rtol=1e-12)
     ends = np.abs(run.strokes["x_end"])
     np.testing.assert_allclose(ends, 0.08, rtol=1e-10)
     assert isinstance(run.engine.left.gas_properties, ConstantGamma)

@@ -166,6 +166,21 @@ def test_lanes_find_what_breathing_engines_do_one_by_one(base, at_once):
     assert assert_lanes_agree(engines) == 20
 
 
+def on_a_line(engine, count):
+    """An engine with equivalence ratios one after the other."""
+    paths = ["equivalence_ratio"] if engine.is_mirrored else ["right.equivalence_ratio"]
+    least = 0.8 * engine.get(paths[0])
+    return [engine.replace(**{paths[0]: ratio}) for ratio in np.linspace(least, 1.2 * least, count)]
+
+
+@pytest.mark.parametrize("choice", [lambda base: base, uneven], ids=["halves", "whole cycles"])
+def test_rows_along_a_line_are_found_in_lanes_as_one_by_one(base, at_once, choice):
+    engines = on_a_line(choice(base), 40)
+    assert assert_lanes_agree(engines) == 40
+    own = orbits_of(engines, 0).half_cycles.sum()
+    assert orbits_of(engines, 40).half_cycles.sum() < 0.6 * own
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("choice", [crossed, single_piston, liftoff, patchy, by_numpy])
 def test_lanes_of_other_laws_too(base, at_once, choice):
@@ -232,8 +247,9 @@ def test_few_engines_never_wait_for_another_kernel(base, monkeypatch):
 
 
 @pytest.mark.long
-def test_results_do_not_depend_on_the_width(base, at_once, monkeypatch):
-    engines = list(variations(base, 9))
+@pytest.mark.parametrize("choice", [variations, on_a_line])
+def test_results_do_not_depend_on_the_width(base, at_once, monkeypatch, choice):
+    engines = list(choice(base, 9))
     wanted = orbits_of(engines, 9, rtol=1e-6)
     monkeypatch.setattr(lanes.find_each, "__defaults__", (3,))
     found = orbits_of(engines, 9, rtol=1e-6)

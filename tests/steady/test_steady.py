@@ -9,9 +9,9 @@ import pytest
 
 import saleg
 from helpers import single_piston
+from own_laws import faulty
 from saleg import Status, laws
 from saleg.laws import Motion
-from saleg.quantities import quantity
 from saleg.simulation.performance import EnergyBalance
 from saleg.steady.symmetry import is_symmetric, repeats_itself
 
@@ -261,28 +261,6 @@ class Ageing(laws.ViscousFriction):
         return held * motion.v * (3.0 if motion.t > 1.0 else 1.0)
 
 
-@dataclass(frozen=True)
-class Hysteretic(laws.LinearSprings):
-    """Springs with 20 N of friction that their energy knows nothing of."""
-
-    def force(self, motion):
-        return -2.0 * self.stiffness * motion.x - 20.0 * motion.direction
-
-
-@dataclass(frozen=True)
-class OneSided(laws.LinearSprings):
-    """A soft stop on the right alone."""
-
-    stop: float = quantity("N/m", default=1e5)
-
-    def force(self, motion: Motion) -> float:
-        return -2.0 * self.stiffness * motion.x - self.stop * max(motion.x - 0.0845, 0.0)
-
-    def energy(self, motion: Motion) -> float:
-        beyond = max(motion.x - 0.0845, 0.0)
-        return self.stiffness * motion.x * motion.x + 0.5 * self.stop * beyond * beyond
-
-
 def test_a_law_of_time_is_recognised_by_its_source(base):
     assert not repeats_itself(base.replace(friction=Ageing()))
     assert repeats_itself(base)
@@ -290,7 +268,7 @@ def test_a_law_of_time_is_recognised_by_its_source(base):
 
 @pytest.mark.parametrize("stop", [1e4, 1e5])
 def test_a_law_that_tells_left_from_right_is_not_mirrored(base, stop):
-    engine = base.replace(springs=OneSided(stiffness=30e3, stop=stop))
+    engine = faulty(base, stop=stop)
     found, run = saleg.steady_state(engine, rtol=1e-8), saleg.simulate(engine, 4.0, rtol=1e-8)
     assert found.found, found.message
     assert deviation(found.performance, run.performance) < 1e-5
@@ -395,7 +373,7 @@ def test_breakpoints_do_not_hide_a_steady_state(base, law):
 
 def test_a_cycle_that_does_not_conserve_energy_is_no_steady_state(base):
     """A spring that takes more on the way out than it gives back."""
-    found = saleg.steady_state(base.replace(springs=Hysteretic()))
+    found = saleg.steady_state(faulty(base, drag=20.0))
     lost = 20.0 * float(np.abs(found.strokes["x_end"] - found.strokes["x_start"]).sum())
     assert found.status is Status.STEP_FAILURE
     assert "energy balance is off" in found.message

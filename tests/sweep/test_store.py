@@ -2,6 +2,7 @@
 
 import json
 import math
+import multiprocessing
 import os
 import random
 import signal
@@ -15,6 +16,7 @@ import pytest
 
 from helpers import SMALL_SWEEP
 from saleg import sweep
+from saleg.cli import main
 from saleg.design import Design
 from saleg.sweep.files import read
 from saleg.sweep.store import table_text
@@ -28,43 +30,51 @@ bore = { from = 0.055, to = 0.075, count = 150 }
 """
 
 
+def _command(words, pipe):
+    """The command in a fork, which has imported and compiled all already; its lines in a pipe."""
+    with open(pipe, "w", encoding="utf-8") as sys.stdout:
+        main(words)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="kills forks")
 def test_a_sweep_killed_at_random_loses_nothing_it_reported(tmp_path):
     """SIGKILL ten times at random moments; then it ends as if nothing had happened."""
     file = tmp_path / "bores.toml"
     file.write_text(SWEEP_FILE)
+    asked = read(file)
+    whole = sweep.run(asked.points, asked.swept, folder=tmp_path / "whole", **asked.settings)
     folder, seed = tmp_path / "killed", random.Random(5)
-    command = [sys.executable, "-m", "saleg", "sweep", str(file), "--workers", "1"]
+    words = ["sweep", str(file), "--workers", "1", "--out", str(folder)]
+    fork = multiprocessing.get_context("fork")
     reported, kills, most = 0, 0, 0
     while kills < 10:
-        process = subprocess.Popen(
-            [*command, "--out", str(folder)], stdout=subprocess.PIPE, text=True
-        )
-        lines = seed.randint(1, 12)
-        for text in process.stdout:
-            words = text.split()
-            if words[0] == "done":
-                now = int(words[1])
-                assert now > reported or now == 150
-                reported = now
-                lines -= 1
-            if lines <= 0:
-                break
-        time.sleep(0.02 * seed.random())
-        process.send_signal(signal.SIGKILL)
-        reported = max(
-            [reported] + [int(x.split()[1]) for x in process.stdout if x.startswith("done")]
-        )
-        process.wait()
-        process.stdout.close()
+        ours, theirs = os.pipe()
+        process = fork.Process(target=_command, args=(words, theirs))
+        process.start()
+        os.close(theirs)
+        with open(ours, encoding="utf-8") as shown:
+            lines = seed.randint(1, 12)
+            for text in shown:
+                told = text.split()
+                if told[0] == "done":
+                    now = int(told[1])
+                    assert now > reported or now == 150
+                    reported = now
+                    lines -= 1
+                if lines <= 0:
+                    break
+            time.sleep(0.02 * seed.random())
+            process.kill()
+            reported = max([reported] + [int(x.split()[1]) for x in shown if x.startswith("done")])
+        process.join()
+        assert process.exitcode == -signal.SIGKILL
         kills += 1
         kept = len(list((folder / "parts").glob("[0-9]*.json")))
         assert kept >= reported, (kept, reported)
         assert kept >= most
         most = kept
     assert kept < 150
-    asked = read(file)
     resumed = sweep.run(asked.points, asked.swept, folder=folder, **asked.settings)
-    whole = sweep.run(asked.points, asked.swept, folder=tmp_path / "whole", **asked.settings)
     assert resumed.equals(whole)
     for name in ("results.csv", "points.csv", "sweep.json"):
         assert (folder / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()

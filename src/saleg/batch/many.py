@@ -240,19 +240,20 @@ def columns_of(
 ) -> Columns:
     """Columns of orbits; remarks go into their messages."""
     engine, strokes, count = found.rows.engine, found.strokes, len(status)
-    odd = ~is_usual(found.rows) | is_remarkable(engine, figures, strokes)
-    for n in np.flatnonzero(odd).tolist():
-        one = found.rows.row(n)
-        remarks = remarks_on(one, Performance.of_cycle(one, strokes[n], strokes[n]), strokes[n])
+    known = {
+        name: np.broadcast_to(figures.get(name, np.nan), count)
+        for name in PERFORMANCE_UNITS
+        if name not in NOT_IN_ROWS
+    }
+    remarkable = is_remarkable(engine, known, strokes)
+    for n in np.flatnonzero(~is_usual(found.rows) | remarkable).tolist():
+        one, own = found.rows.row(n), {name: values[n] for name, values in known.items()}
+        remarks = remarks_on(one, own, strokes[n]) if remarkable[n] else []
         message[n] = "; ".join([message[n], *_odd(one, remarks)])
     return {
         "status": status,
         "message": message,
-        **{
-            name: np.broadcast_to(figures.get(name, np.nan), count)
-            for name in PERFORMANCE_UNITS
-            if name not in NOT_IN_ROWS
-        },
+        **known,
         "method": np.full(count, "fixed point", dtype=object),
         "half_cycles": found.half_cycles.astype(float),
         "evaluations": found.evaluations,

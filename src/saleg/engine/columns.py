@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import lru_cache, reduce
+from functools import cached_property, lru_cache, reduce
 from operator import and_, attrgetter
 from typing import Any, NamedTuple
 
@@ -37,6 +37,11 @@ class Rows:
     def count(self) -> int:
         """Number of rows."""
         return len(self.places)
+
+    @cached_property
+    def first(self) -> Engine:
+        """Engine of the first row: what is not a number is the same in all."""
+        return self.row(0)
 
     def row(self, n: int) -> Engine:
         """Engine of a row."""
@@ -190,7 +195,7 @@ def are_in_range(tree: Any, count: int) -> np.ndarray:
 
 def is_usual(rows: Rows) -> np.ndarray:
     """Whether nothing in each row is far from what has been built."""
-    of_series = [problem for problem in rows.row(0).unusual() if isinstance(problem.value, tuple)]
+    of_series = [problem for problem in rows.first.unusual() if isinstance(problem.value, tuple)]
     usual = np.full(rows.count, not of_series)
     for value, limits in _quantities(rows.engine):
         if limits.usual:
@@ -212,7 +217,8 @@ def _changed(engine: Engine, change: Callable[[Any], Any]) -> Engine:
         twin = object.__new__(type(node))
         held, fields = vars(twin), _fields(node)
         held.update(vars(node))
-        held.update((name, change(held[name])) for name in fields.numbers)
+        for name in fields.numbers:
+            held[name] = change(held[name])
         for name in fields.others:
             if _is_part(held[name]) and not (node is engine and name in left_out):
                 held[name] = copied(held[name])

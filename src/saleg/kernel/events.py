@@ -238,19 +238,24 @@ def locate(P, E, C, O, tableau, t, h, guess, y, k, y_new, event):
 
 @inline
 def expected_event(E, C, y, dy):
-    """Next dead centre or place and the time to it, extrapolated; -1 if it is far or imminent."""
+    """Next dead centre or place and the time to it, extrapolated; -1 if it is far or imminent.
+
+    What cannot change by enough in the time looked ahead is not extrapolated: divisions take long.
+    """
     first, earliest, least = -1, 2.0 * E.next_step, 1e-4 * E.next_step
     v, a, jerk = y[V], dy[V], E.jerk
-    slows = (E.direction * v > 0.0) & (E.direction * a < 0.0)
+    change = earliest * (abs(a) + 0.5 * earliest * abs(jerk))
+    slows = (E.direction * v > 0.0) & (E.direction * a < 0.0) & (abs(v) <= change)
     if any_of(slows):
         s = -v / a
         s -= (v + s * (a + 0.5 * s * jerk)) / (a + s * jerk)
         sooner = slows & (least < s) & (s < earliest)
         first, earliest = where(sooner, DEAD_CENTRE, first), where(sooner, s, earliest)
+    reach = earliest * (abs(v) + change)
     for event in (CORNER, PORT, PORT + 1):
-        possible = (v != 0.0) & event_is_possible(E, C, event)
+        way = place_of(E, C, event) - y[X]
+        possible = (v != 0.0) & (abs(way) <= reach) & event_is_possible(E, C, event)
         if any_of(possible):
-            way = place_of(E, C, event) - y[X]
             s = way / v
             for _ in range(2):
                 rest = s * (v + s * (0.5 * a + s * jerk / 6.0)) - way

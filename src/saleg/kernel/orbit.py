@@ -143,6 +143,26 @@ def resize(E, rows, strokes):
 
 
 @compiled
+def begin_second_half(run, mass):
+    """Go on from the first half of a cycle, out of the mirror, with the mass it had [kg]."""
+    E = run.engine[0]
+    mirror(E, run.chambers, run.y, run.words.chambers)
+    E.mass = mass
+    begin_return(run, HALF_CYCLE)
+    run.options[0].peaks, run.tables.filled[0].strokes = 2, 1
+
+
+@compiled
+def second_half(mapping, iterates, found):
+    """Take the second half of a whole cycle whose first half was the last map, recorded."""
+    run = mapping.integration
+    begin_second_half(run, run.snapshots.engine[0].mass)
+    code = end_return(run, WHOLE_CYCLE, run_at(mapping.address, run))
+    end_cycle(run, iterates, found)
+    return code
+
+
+@compiled
 def find_orbit(mapping, max_maps, tolerance, iterates, found):
     """Iterate and extrapolate the return map until a state returns to itself; take one cycle then.
 
@@ -151,12 +171,23 @@ def find_orbit(mapping, max_maps, tolerance, iterates, found):
     cycle. Returns the code of the integrator, or that nothing was found in `max_maps` maps.
     """
     begin_search(mapping.integration, iterates)
+    code = settle(mapping, max_maps, tolerance, iterates, found)
+    return whole_cycle(mapping, iterates, found) if code == END_OF_TIME else code
+
+
+@compiled
+def settle(mapping, max_maps, tolerance, iterates, found):
+    """Iterate and extrapolate the return map until a state returns to itself.
+
+    Returns the code of the integrator, or that nothing was found in `max_maps` maps.
+    """
     for _ in range(max_maps):
         code = next_return(mapping, mapping.mirrored)
+        mapping.integration.options[0].peaks = 0  # none but the first map may be recorded
         if code != END_OF_TIME:
             return code
         if has_settled(mapping.integration, mapping.mirrored, tolerance, iterates, found):
-            return whole_cycle(mapping, iterates, found)
+            return END_OF_TIME
     return NOT_FOUND
 
 

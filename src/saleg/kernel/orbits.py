@@ -2,26 +2,43 @@
 
 All of one choice of laws: what the search works on belongs to one return map, into which the
 numbers of each engine are copied, and out of which its results are. An engine that stands on a line
-with others begins where their fixed points lead to, extrapolated by a cubic at most.
+between others begins at the polynomial through their fixed points. Where that is as good as the
+fixed point, the map that shows it is the first half of the cycle that is recorded.
 """
 
-from math import inf
 from typing import Any, NamedTuple
 
 from saleg.kernel.jit import cached, compiled, inline
 from saleg.kernel.layout import END_OF_TIME, N_ALL, N_VECTOR
-from saleg.kernel.orbit import HALF_CYCLE, NEAR, cycle_from, find_orbit, next_return, take_state
+from saleg.kernel.orbit import (
+    HALF_CYCLE,
+    NEAR,
+    begin_cycle,
+    begin_search,
+    cycle_from,
+    find_orbit,
+    next_return,
+    second_half,
+    settle,
+    take_state,
+    whole_cycle,
+)
 from saleg.kernel.state import begin_stroke, copy_row
 from saleg.kernel.tuples import Snapshots
 from saleg.kernel.vector import distance, mirror, read_vector, write_vector
 
-# Fixed points an extrapolation goes through: a straight line's at least, a cubic's at most.
+# Fixed points an interpolation goes through: one on either side at least.
 FEWEST_BEFORE = 2
-MOST_BEFORE = 4
-# Maps a search from an extrapolated point may take; from a start of its own it takes some ten.
+MOST_BEFORE = 6
+# Maps a search from an interpolated point may take; from a start of its own it takes some ten.
 FEW_MAPS = 12
-# Distance of a fixed point from the extrapolated one beyond which it is on another branch.
+# Distance of a fixed point from the interpolated one beyond which it may be on another branch: of
+# any, and over its distance from the nearer of its neighbours, had both a straight line between.
 FARTHEST_BESIDE = 0.1
+FARTHEST_OVER_WAY = 0.5
+# Residual of a search along a line, over the one asked for: it may be that of the cycle recorded,
+# not of the map before, and others begin from where it ends.
+FINER_BESIDE = 0.5
 
 
 class Searches(NamedTuple):
@@ -40,13 +57,16 @@ class Searches(NamedTuple):
     order : ndarray of int, shape (n,)
         Rows in the order in which they are searched for.
     before : ndarray of int, shape (n, MOST_BEFORE)
-        Rows that each may follow, the nearest first; -1 for none.
+        Rows on its line that are searched for before each, one on either side and then the others,
+        the nearest first; -1 for none.
     ahead : ndarray, shape (n, MOST_BEFORE)
         How far it is ahead of them on their line.
     followed : ndarray of bool, shape (n,)
         Whether what was found was found from there.
+    at_once : ndarray of bool, shape (n,)
+        Whether the first map of the search is the first half of the cycle.
     codes : ndarray of int, shape (n,)
-        Why the integrator came back.
+        Why the integrator came back; GOES_ON if it has yet to.
     found : ndarray of SEARCH_RECORD, shape (n,)
         How the search went.
     spare : ndarray of SEARCH_RECORD, shape (1,)
@@ -69,6 +89,7 @@ class Searches(NamedTuple):
     before: Any
     ahead: Any
     followed: Any
+    at_once: Any
     codes: Any
     found: Any
     spare: Any
@@ -127,7 +148,7 @@ def alike(searches, a, b):
 
 @compiled
 def known_before(searches, row):
-    """How many of the rows before on its line a row can follow."""
+    """Through how many of the rows found before it on its line a polynomial may go."""
     for k in range(MOST_BEFORE):
         n = searches.before[row, k]
         if n < 0 or searches.codes[n] != END_OF_TIME:
@@ -138,8 +159,8 @@ def known_before(searches, row):
 
 
 @compiled
-def extrapolate_line(searches, row, known, z):
-    """Write the polynomial through the fixed points of the rows before, by Lagrange."""
+def interpolate(searches, row, known, z):
+    """Write the polynomial through the fixed points of rows on its line, by Lagrange."""
     ahead = searches.ahead[row]
     for m in range(N_VECTOR):
         z[m] = 0.0
@@ -152,40 +173,13 @@ def extrapolate_line(searches, row, known, z):
             z[m] += weight * searches.image[searches.before[row, i], m]
 
 
-@inline
-def misses(searches, row, known, z):
-    """How far an extrapolation through some fixed points would have missed that of a row."""
-    extrapolate_line(searches, row, known, z)
-    return distance(z, searches.image[row])
-
-
 @compiled
-def best_known(searches, row, z):
-    """Through how many fixed points to extrapolate: what would have been best for the two before.
-
-    Noise speaks for few, a curve for many. `z` is room for a vector.
-    """
-    most = known_before(searches, row)
-    if most <= FEWEST_BEFORE:
-        return most
-    near, next_one = searches.before[row, 0], searches.before[row, 1]
-    most = min(most, min(known_before(searches, near), known_before(searches, next_one)))
-    best, least = FEWEST_BEFORE, inf
-    for known in range(FEWEST_BEFORE, most + 1):
-        missed = misses(searches, near, known, z) + misses(searches, next_one, known, z)
-        if missed < least:
-            best, least = known, missed
-    return best
-
-
-@compiled
-def begin_beside(searches, row, near, mapping, z):
+def begin_beside(searches, row, near, run, z):
     """Go to a vector in the modes of a neighbour; false if the neighbour begins on the other side.
 
     Of what is not in the vector, the step and the state at which a charge was enclosed at bottom
     dead centre are the neighbour's too.
     """
-    run = mapping.integration
     E, C, theirs = run.engine[0], run.chambers, searches.engine[near]
     if E.direction != theirs.direction:
         return False
@@ -202,28 +196,72 @@ def begin_beside(searches, row, near, mapping, z):
 
 
 @compiled
-def follow(searches, row, mapping, tolerance, iterates):
-    """Look for a fixed point from where those before it on its line lead to; whether there is one.
+def begin_on_line(searches, row, mapping, iterates):
+    """Begin a search where the fixed points beside a row on its line lead to; false if nowhere.
 
-    It counts if it is where it was expected, in the modes of its neighbour.
+    The first half cycle is recorded.
     """
-    known = best_known(searches, row, iterates.residual)
+    known = known_before(searches, row)
     if known < FEWEST_BEFORE:
         return False
-    near, found = searches.before[row, 0], searches.found[row]
-    guess = searches.point[row]
-    extrapolate_line(searches, row, known, guess)
-    if not begin_beside(searches, row, near, mapping, guess):
+    run, guess = mapping.integration, searches.point[row]
+    interpolate(searches, row, known, guess)
+    if not begin_beside(searches, row, searches.before[row, 0], run, guess):
         return False
-    code = find_orbit(mapping, FEW_MAPS, tolerance, iterates, found)
-    if code != END_OF_TIME or distance(iterates.image, guess) > FARTHEST_BESIDE:
+    begin_search(run, iterates)
+    if mapping.mirrored:
+        begin_cycle(run, iterates)
+    return True
+
+
+@compiled
+def ends_beside(searches, row, mapping, tolerance, iterates):
+    """Whether a fixed point is where it was expected, in the modes of its neighbours.
+
+    Two neighbours on two branches would have it half their distance away.
+    """
+    near, far = searches.before[row, 0], searches.before[row, 1]
+    ahead = searches.ahead[row]
+    missed = distance(iterates.image, searches.point[row])
+    way = distance(searches.image[near], searches.image[far])
+    way *= min(abs(ahead[0]), abs(ahead[1])) / abs(ahead[0] - ahead[1])
+    if missed > min(max(FARTHEST_OVER_WAY * way, NEAR * tolerance), FARTHEST_BESIDE):
         return False
     for side in range(2):
         if mapping.integration.chambers[side].mode != searches.chambers[2 * near + side].mode:
             return False
     # A few points say too little of what changes slowly: as slow as the neighbour's, then.
+    found = searches.found[row]
     found.slowness = searches.found[near].slowness
     return found.slowness * found.residual <= NEAR * tolerance
+
+
+@inline
+def has_first_half(searches, row, mapping, iterates):
+    """Whether the map that has just ended a search along a line is the first half of its cycle."""
+    at_once = mapping.mirrored and iterates.counts[0] == 0
+    if at_once:
+        searches.found[row].maps = 0.0
+    searches.at_once[row] = at_once
+    return at_once
+
+
+@compiled
+def follow(searches, row, mapping, tolerance, iterates):
+    """Look for a fixed point from where those beside it on its line lead to; whether there is one.
+
+    It counts if it is where it was expected, in the modes of its neighbours.
+    """
+    found = searches.found[row]
+    if not begin_on_line(searches, row, mapping, iterates):
+        return False
+    if settle(mapping, FEW_MAPS, FINER_BESIDE * tolerance, iterates, found) != END_OF_TIME:
+        return False
+    if not ends_beside(searches, row, mapping, tolerance, iterates):
+        return False
+    if has_first_half(searches, row, mapping, iterates):
+        return second_half(mapping, iterates, found) == END_OF_TIME
+    return whole_cycle(mapping, iterates, found) == END_OF_TIME
 
 
 @compiled
@@ -233,24 +271,44 @@ def find_row(searches, row, mapping, max_maps, tolerance, iterates):
     searches.followed[row] = follow(searches, row, mapping, tolerance, iterates)
     if searches.followed[row]:
         return END_OF_TIME
+    begin_anew(searches, row, mapping)
+    return find_orbit(mapping, max_maps, tolerance, iterates, searches.found[row])
+
+
+@inline
+def begin_anew(searches, row, mapping):
+    """Go to an engine's own start; what has been spent on it stays counted."""
     spent = mapping.integration.engine[0].evaluations
     take_up(searches, row, mapping)
-    code = find_orbit(mapping, max_maps, tolerance, iterates, searches.found[row])
     mapping.integration.engine[0].evaluations += spent
-    return code
+    mapping.integration.options[0].peaks = 0
+    searches.followed[row] = searches.at_once[row] = False
+
+
+@inline
+def keep_begin(searches, row, run, at):
+    """Copy a snapshot, the state the cycle began at, out of the return map."""
+    starts, begun = searches.starts, run.snapshots
+    copy_row(starts.engine, row, begun.engine, at)
+    for n in range(N_ALL):
+        starts.y[row, n] = begun.y[at, n]
+    for side in range(2):
+        for n in range(run.words.kept_chambers.shape[2]):
+            starts.chambers[2 * row + side, n] = run.words.kept_chambers[at, side, n]
+
+
+@inline
+def keep_stroke(searches, row, stroke, run):
+    """Copy a stroke of the cycle out of the return map."""
+    copy_row(searches.strokes, 2 * row + stroke, run.tables.strokes, stroke)
 
 
 @inline
 def keep_cycle(searches, row, run):
     """Copy the cycle just recorded, and the state it began at, out of the return map."""
-    starts, begun = searches.starts, run.snapshots
-    copy_row(starts.engine, row, begun.engine, 1)
-    for n in range(N_ALL):
-        starts.y[row, n] = begun.y[1, n]
-    for side in range(2):
-        for n in range(run.words.kept_chambers.shape[2]):
-            starts.chambers[2 * row + side, n] = run.words.kept_chambers[1, side, n]
-        copy_row(searches.strokes, 2 * row + side, run.tables.strokes, side)
+    keep_begin(searches, row, run, 1)
+    keep_stroke(searches, row, 0, run)
+    keep_stroke(searches, row, 1, run)
 
 
 @cached

@@ -160,7 +160,7 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
                 peaks[peak] = max(peaks[peak], spare.trail[peak])
                 if expected:
                     approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
-        elif is_passed(C, peak, y, k[0], y_new, k[last]):
+        elif rises(C, peak, y, k[0]) and not rises(C, peak, y_new, k[last]):
             if O.peaks > 1:
                 approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
             else:

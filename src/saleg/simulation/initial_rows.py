@@ -38,8 +38,14 @@ class States(NamedTuple):
         return cls(state.engine, state.chambers.reshape(1, 2), state.y.reshape(1, -1))
 
     def some(self, chosen: np.ndarray) -> States:
-        """Copies of the states of some rows."""
+        """Copies of the states of some rows; these themselves if they are all of them."""
+        if chosen.dtype == bool and chosen.all():
+            return self
         return States(self.engine[chosen], self.chambers[chosen], self.y[chosen])
+
+    def copy(self) -> States:
+        """Copies of all states."""
+        return States(self.engine.copy(), self.chambers.copy(), self.y.copy())
 
     def row(self, n: int) -> State:
         """Copy of the state of a row."""

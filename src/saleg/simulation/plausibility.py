@@ -9,7 +9,6 @@ import numpy as np
 
 from saleg.engine import CombustionChamber, Engine
 from saleg.simulation.indicators import both, summed
-from saleg.simulation.performance import Performance
 
 
 class Limit(NamedTuple):
@@ -118,14 +117,15 @@ HEATED_BY_WALLS = "more heat from the walls than from the fuel: the efficiency c
 
 
 def implausible(
-    engine: Engine, performance: Performance, strokes: np.ndarray
+    engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray
 ) -> tuple[Implausible, ...]:
     """Figures of a cycle beyond what is plausible.
 
     Parameters
     ----------
     engine : Engine
-    performance : Performance
+    figures : mapping of str to float
+        Those of a :class:`.Performance`, by name.
     strokes : ndarray of STROKE_RECORD
         The cycle, empty where it is not known.
 
@@ -136,14 +136,14 @@ def implausible(
     """
     return tuple(
         Implausible(name, float(value), limit, unit, reason)
-        for beyond, name, value, limit, unit, reason in _judged(engine, vars(performance), strokes)
+        for beyond, name, value, limit, unit, reason in _judged(engine, figures, strokes)
         if beyond
     )
 
 
-def remarks_on(engine: Engine, performance: Performance, strokes: np.ndarray) -> list[str]:
+def remarks_on(engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray) -> list[str]:
     """Figures of a cycle beyond what is plausible, as text; see :func:`implausible`."""
-    return [str(figure) for figure in implausible(engine, performance, strokes)]
+    return [str(figure) for figure in implausible(engine, figures, strokes)]
 
 
 def is_remarkable(engine: Engine, figures: Mapping[str, Any], strokes: np.ndarray) -> Any:

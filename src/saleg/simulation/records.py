@@ -24,15 +24,17 @@ class Kept:
 
     def add(self, rows: np.ndarray) -> None:
         """Take over a copy of some rows."""
-        self._pieces.append(rows.copy())
+        self._pieces = [rows.copy()] if self._count == 0 else [*self._pieces, rows.copy()]
         self._count += len(rows)
         if self._last is not None and self._count > 4 * self._last:
             self._pieces = [self.joined()]
             self._count = len(self._pieces[0])
 
     def joined(self) -> np.ndarray:
-        """All rows kept, in order."""
-        rows = np.concatenate(self._pieces)
+        """All rows kept, in order: an array only its readers share."""
+        if len(self._pieces) > 1:  # numpy takes its time to join records, even those of one piece
+            self._pieces = [np.concatenate(self._pieces)]
+        rows = self._pieces[0]
         return rows if self._last is None else rows[-self._last :].copy()
 
 

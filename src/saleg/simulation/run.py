@@ -154,7 +154,7 @@ class Run:
         """Figures of the last full cycle that no engine built comes near, as text; often none."""
         start = last_cycle_start(self.strokes)
         cycle = self.strokes[:0] if start is None else self.strokes[start : start + 2]
-        return remarks_on(self.engine, self.performance, cycle)
+        return remarks_on(self.engine, vars(self.performance), cycle)
 
     @property
     def validity(self) -> ValidityReport:

@@ -93,5 +93,5 @@ def validity_of(
     exits : sequence of dict
         Exits of laws from their ranges.
     """
-    beyond = implausible(engine, performance, strokes)
+    beyond = implausible(engine, vars(performance), strokes)
     return ValidityReport(tuple(exits), beyond, nearest_machine(engine, performance, strokes))

@@ -1,7 +1,7 @@
 """Searches for the fixed points of many engines side by side, where that pays.
 
 It takes half to two thirds of the time and a kernel of its own, some ten seconds of a processor to
-compile. So only batches of :data:`MANY` engines and more that follow no lines go that way, if that
+compile. So only batches of :data:`MANY` engines and more go that way, if that
 kernel has been compiled before, and those of :data:`WORTH_COMPILING` in any case. What is found is
 the same within the tolerance, not to the last bit: therefore the whole batch decides, so that
 nothing depends on how it is cut. What must be the same on every machine to the last bit (an

@@ -1,7 +1,9 @@
 """Lines among many engines: rows that differ in one number, which follow each other along it.
 
-Their steady states follow each other too, so that each leads to the next. Nothing but the numbers
-says what lines there are: tables of a grid have them, in whatever order, random ones have none.
+Their steady states follow each other too, so that those beside one lead to it. Some rows of a line
+are searched for by themselves; then, again and again, the rows in the middle between two that are
+known. Nothing but the numbers says what lines there are: tables of a grid have them, in whatever
+order, random ones have none.
 """
 
 from __future__ import annotations
@@ -14,37 +16,39 @@ from saleg.kernel.orbits import MOST_BEFORE
 
 #: Rows of a line from which on it is worth following.
 WORTH_IT = 5
-#: Step over the one before it beyond which an extrapolation does not go on through both.
-LONGEST_STEP = 2.0
-#: Rows of a line after which one is searched for from its own start too.
-CHECKED_EVERY = 32
+#: Rows of a line after which one is searched for from its own start.
+OWN_EVERY = 32
+#: Sum of the magnitudes of the weights of an interpolation, beyond which it goes through fewer
+#: points: as many times it may magnify how far these are off.
+MOST_WEIGHT = 2.0
+#: Where the rows stand through which an interpolation may go, counted along the line from the one
+#: before: one on either side, then those nearest, more on one side where the other has no more.
+BESIDE = (0, 1, -1, 2, -2, 3, -3, 4, -4, 5)
 
 
 class Lines(NamedTuple):
-    """In what order rows are searched for, and which follow which.
+    """In what order rows are searched for, and from which each search begins.
 
     Attributes
     ----------
     order : ndarray of int, shape (n,)
     before : ndarray of int, shape (n, MOST_BEFORE)
-        Rows that each follows, the nearest first; -1 for none.
+        Rows between which each lies, one on either side, then those next to them, the nearest
+        first; -1 for none.
     ahead : ndarray, shape (n, MOST_BEFORE)
         How far it is ahead of them, over the range of the numbers [-].
-    checked : ndarray of bool, shape (n,)
-        Rows at which a line has to prove itself: the last, and some on the way.
     stretch : ndarray of int, shape (n,)
-        Rows from behind one of these to the next have the same; -1 for those on no line.
+        The same for rows between two that are searched for by themselves; -1 for these.
     """
 
     order: np.ndarray
     before: np.ndarray
     ahead: np.ndarray
-    checked: np.ndarray
     stretch: np.ndarray
 
     @property
     def any(self) -> bool:
-        """Whether any row follows another."""
+        """Whether any search begins from other rows."""
         return bool((self.before >= 0).any())
 
     def around(self, rows: np.ndarray) -> np.ndarray:
@@ -55,13 +59,7 @@ class Lines(NamedTuple):
 def no_lines(count: int) -> Lines:
     """Rows of which each is searched for from its own start."""
     shape = count, MOST_BEFORE
-    return Lines(
-        order=np.arange(count),
-        before=np.full(shape, -1),
-        ahead=np.zeros(shape),
-        checked=np.full(count, False),
-        stretch=np.full(count, -1),
-    )
+    return Lines(np.arange(count), np.full(shape, -1), np.zeros(shape), np.full(count, -1))
 
 
 def lines_among(numbers: np.ndarray) -> Lines:
@@ -75,13 +73,13 @@ def lines_among(numbers: np.ndarray) -> Lines:
     Returns
     -------
     Lines
-        Along the number that makes the fewest and so the longest lines; their first rows follow
-        each other along the others.
+        Along the number that makes the fewest and so the longest lines.
     """
-    lines = no_lines(len(numbers))
-    scaled = _scaled(numbers)
-    if scaled.shape[1]:
-        lines.order[:] = _joined(lines, scaled, np.arange(len(numbers)))
+    lines, scaled = no_lines(len(numbers)), _scaled(numbers)
+    found = _longest(scaled) if scaled.shape[1] else None
+    if found is not None:
+        along, line = found
+        _halve(lines, line, scaled[:, along])
     return lines
 
 
@@ -93,26 +91,6 @@ def _scaled(numbers: np.ndarray) -> np.ndarray:
     scaled = np.round(scaled, 12)
     once = {column.tobytes(): n for n, column in enumerate(scaled.T)}
     return scaled[:, sorted(once.values())]
-
-
-def _joined(lines: Lines, scaled: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Join some rows to lines; returns them in the order of their searches, first rows first."""
-    found = _longest(scaled[rows])
-    if found is None:
-        return rows
-    along, line = found
-    sorted_ = np.lexsort((scaled[rows, along], line))
-    rows, line = rows[sorted_], line[sorted_]
-    is_first = np.append(True, np.diff(line) > 0)
-    number = np.arange(len(rows)) - np.flatnonzero(is_first)[line]  # of the row on its line
-    _follow(lines, rows, number, scaled[rows, along])
-    is_last = np.append(is_first[1:], True)
-    behind, number = rows[~is_first], number[~is_first]
-    lines.checked[behind] = is_last[~is_first] | (number % CHECKED_EVERY == 0)
-    ends = np.cumsum(lines.checked[behind])
-    lines.stretch[behind] = lines.stretch.max() + 1 + ends - lines.checked[behind]
-    first = _joined(lines, np.delete(scaled, along, axis=1), rows[is_first])
-    return np.concatenate([first, behind])
 
 
 def _longest(scaled: np.ndarray) -> tuple[int, np.ndarray] | None:
@@ -131,19 +109,63 @@ def _longest(scaled: np.ndarray) -> tuple[int, np.ndarray] | None:
     return (-along, line) if count <= most_lines else None
 
 
-def _follow(lines: Lines, rows: np.ndarray, number: np.ndarray, place: np.ndarray) -> None:
-    """Let rows follow those before them on their lines.
+def _halve(lines: Lines, line: np.ndarray, place: np.ndarray) -> None:
+    """Let rows begin from those on either side, each in the middle between rows known before."""
+    rows = np.lexsort((place, line))
+    again = np.append(False, (np.diff(line[rows]) == 0) & (np.diff(place[rows]) == 0.0))
+    alone, rows = rows[again], rows[~again]  # what stands there twice is no neighbour
+    line, place = line[rows], place[rows]
+    own = np.flatnonzero(_are_own(line))
+    known, levels, neighbours = own, [own], [np.zeros((0, MOST_BEFORE), int)]
+    while True:
+        gaps = np.flatnonzero(np.diff(known) > 1)
+        if not len(gaps):
+            break
+        middle = (known[gaps] + known[gaps + 1]) // 2
+        levels.append(middle)
+        neighbours.append(_beside(known, gaps, line))
+        known = np.sort(np.append(known, middle))
+    lines.order[:] = np.append(alone, rows[np.concatenate(levels)])
+    between, beside = np.concatenate([own[:0], *levels[1:]]), np.concatenate(neighbours)
+    ahead = place[between, np.newaxis] - place[beside]
+    there = (beside >= 0) & (np.arange(MOST_BEFORE) < _most_before(ahead, beside >= 0))
+    lines.before[rows[between]] = np.where(there, rows[beside], -1)
+    lines.ahead[rows[between]] = np.where(there, ahead, 0.0)
+    lines.stretch[rows[between]] = np.searchsorted(own, between)
 
-    An extrapolation does not go through points that are closer together than the way from them.
+
+def _are_own(line: np.ndarray) -> np.ndarray:
+    """Which rows of sorted lines are searched for by themselves: both ends and some between."""
+    changes = np.diff(line) != 0
+    first, last = np.append(True, changes), np.append(changes, True)
+    start = np.maximum.accumulate(np.where(first, np.arange(len(line)), 0))
+    own: np.ndarray = last | ((np.arange(len(line)) - start) % OWN_EVERY == 0)
+    return own
+
+
+def _beside(known: np.ndarray, gaps: np.ndarray, line: np.ndarray) -> np.ndarray:
+    """Known rows of its line beside each gap behind some of them, the nearest first; -1 for none.
+
+    Rows are numbered along the sorted lines.
     """
-    reach, open_ = np.zeros(len(rows)), np.full(len(rows), True)
-    for k in range(MOST_BEFORE):
-        before = np.maximum(np.arange(len(rows)) - k - 1, 0)
-        ahead = place - place[before]
-        step = ahead - reach
-        open_ = open_ & (number > k) & (step > 0.0)
-        if k:
-            open_ &= LONGEST_STEP * step >= reach / k
-        lines.before[rows[open_], k] = rows[before[open_]]
-        lines.ahead[rows[open_], k] = ahead[open_]
-        reach = ahead
+    at = gaps[:, np.newaxis] + np.array(BESIDE)
+    beside = known[np.clip(at, 0, len(known) - 1)]
+    there = (at >= 0) & (at < len(known)) & (line[beside] == line[known[gaps], np.newaxis])
+    nearest = np.argsort(~there, axis=1, kind="stable")[:, :MOST_BEFORE]
+    found: np.ndarray = np.take_along_axis(np.where(there, beside, -1), nearest, 1)
+    return found
+
+
+def _most_before(ahead: np.ndarray, there: np.ndarray) -> np.ndarray:
+    """Through how many points to interpolate, as a column: so that their errors do not grow."""
+    apart = ahead[:, np.newaxis, :] - ahead[:, :, np.newaxis]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factors = ahead[:, np.newaxis, :] / apart
+    itself = np.arange(MOST_BEFORE)
+    factors[:, itself, itself] = 1.0
+    most = np.full((len(ahead), 1), 2)
+    for count in range(3, MOST_BEFORE + 1):
+        weights = factors[:, :count, :count].prod(axis=2)
+        good = (np.abs(weights).sum(axis=1) <= MOST_WEIGHT) & there[:, count - 1]
+        most[good] = count
+    return most

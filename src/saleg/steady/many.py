@@ -48,6 +48,19 @@ from saleg.steady.solver import (
 )
 from saleg.steady.symmetry import has_laws_that_mirror, is_symmetric, repeats_itself
 
+#: What of searches is one row for each engine.
+ROW_BY_ROW = (
+    "engine",
+    "y",
+    "codes",
+    "found",
+    "followed",
+    "at_once",
+    "point",
+    "residual",
+    "image",
+)
+
 
 class Limits(NamedTuple):
     """What a search may take, and how well an orbit must close.
@@ -98,6 +111,8 @@ class Orbits(NamedTuple):
 
     def some(self, chosen: np.ndarray) -> Orbits:
         """Some of them."""
+        if chosen.dtype == bool and chosen.all():
+            return self
         strokes, mass, half_cycles, evaluations, residual = (p[chosen] for p in self[2:-1])
         return Orbits(
             rows=self.rows.some(chosen),
@@ -140,7 +155,7 @@ def steady_rows(rows: Rows, rtol: float, effort: Effort, total: int = UNKNOWN) -
 def lots_to_search(rows: Rows) -> list[tuple[Rows, bool]]:
     """The valid engines that have a return map, and whether it is that of half a cycle."""
     rows = rows.some(is_sound(rows))
-    if not rows.count or not search.stands_alone() or not _can_be_searched(rows.row(0)):
+    if not rows.count or not search.stands_alone() or not _can_be_searched(rows.first):
         return []
     symmetric = _are_symmetric(rows)
     lots = [(rows.some(symmetric == mirrored), mirrored) for mirrored in (True, False)]
@@ -208,10 +223,9 @@ def searched(
     numbers = rows.numbers() if numbers is None else numbers[ready]
     follows = total != BY_ITSELF and _may_follow(rows.engine)
     lines = lines_among(numbers) if follows else no_lines(rows.count)
-    search = _Search(rows, begin, mirrored, rtol, limits, UNKNOWN if lines.any else total)
+    search = _Search(rows, begin, mirrored, rtol, limits, total)
     room, good = search.found(lines)
-    if lines.any:
-        search.check(lines, room, good)
+    search.check(lines, room, good)
     if not good.any():
         return None
     begun = room.starts
@@ -244,10 +258,8 @@ class _Search(NamedTuple):
     rows : Rows
     begin : States
         Where each begins.
-    mirrored, rtol, limits
+    mirrored, rtol, limits, total
         As for :func:`searched`.
-    total : int
-        As there if no engine follows another, else UNKNOWN: lines are followed one by one.
     """
 
     rows: Rows
@@ -260,8 +272,8 @@ class _Search(NamedTuple):
     def found(self, lines: Lines) -> tuple[Searches, np.ndarray]:
         """What was found, and whether it is an orbit."""
         rows, mirrored, limits = self.rows, self.mirrored, self.limits
-        rtol, one = self.tolerance, rows.row(0)
-        states = self.begin.some(np.arange(rows.count))
+        rtol, one = self.tolerance, rows.first
+        states = self.begin.copy()
         steps = step_tolerance(one, self.rtol)
         return_map = ReturnMap.of(one, states.row(0), steps, mirrored, limits.most_steps)
         room = _room(rows, states, lines)
@@ -269,7 +281,7 @@ class _Search(NamedTuple):
         strokes = room.strokes.reshape(-1, 2)
         good = room.codes == layout.END_OF_TIME
         good &= room.found["missed"] <= limits.missed * rtol
-        good &= are_near(room, mirrored, free_entries(one), NEAR * RESIDUAL * rtol)
+        good &= are_near(room, mirrored, free_entries(one), NEAR * RESIDUAL * rtol, room.at_once)
         good &= are_sharp(room.found["slowness"], imbalance(strokes[:, 1], strokes), rtol)
         _leave_out_changed_entropies(good, rows, self.begin, states, NEAR * RESIDUAL * rtol)
         return room, good
@@ -287,16 +299,16 @@ class _Search(NamedTuple):
     def check(self, lines: Lines, room: Searches, good: np.ndarray) -> None:
         """Replace what lines have led to and engines would not have come to from their starts.
 
-        At some rows both are compared. Where they differ, or a line has led to no orbit, the rows
-        since the last that agreed are searched for from their own starts.
+        Where a line has led to no orbit, and that is no chance, all rows of its stretch are
+        searched for from their own starts.
         """
-        doubtful = (room.followed & ~good) | lines.checked
+        doubtful = room.followed & ~good
         differs = self._take_from_starts(np.flatnonzero(doubtful), room, good)
-        again = lines.around(differs) & room.followed & ~doubtful
+        again = lines.around(differs) & room.followed
         self._take_from_starts(np.flatnonzero(again), room, good)
 
     def _take_from_starts(self, chosen: np.ndarray, room: Searches, good: np.ndarray) -> np.ndarray:
-        """Put what rows come to from their own starts in place; which that changes."""
+        """Put what rows come to from their own starts in place; which that moves elsewhere."""
         if not len(chosen):
             return chosen
         own, own_good = self.some(chosen).found(no_lines(len(chosen)))
@@ -304,8 +316,7 @@ class _Search(NamedTuple):
         apart_modes = own.chambers["mode"] != room.chambers["mode"].reshape(-1, 2)[chosen].ravel()
         same = apart <= NEAR * RESIDUAL * self.tolerance
         same &= ~apart_modes.reshape(-1, 2).any(axis=1)
-        differs = chosen[(own_good & ~same) | (~own_good & good[chosen])]
-        for name in ("engine", "y", "codes", "found", "followed", "point", "residual", "image"):
+        for name in ROW_BY_ROW:
             getattr(room, name)[chosen] = getattr(own, name)
         for name in ("chambers", "strokes"):
             pairs = getattr(room, name).reshape(-1, 2)
@@ -314,7 +325,7 @@ class _Search(NamedTuple):
             each = begun.reshape(len(good), -1)
             each[chosen] = own_begun.reshape(len(chosen), -1)
         good[chosen] = own_good
-        return differs
+        return chosen[~(same & own_good)]
 
 
 def verdicts(orbits: Orbits, rtol: float) -> tuple[np.ndarray, np.ndarray]:
@@ -347,7 +358,8 @@ def _room(rows: Rows, states: States, lines: Lines) -> Searches:
         before=lines.before,
         ahead=lines.ahead,
         followed=np.full(n, False),
-        codes=np.zeros(n, np.int64),
+        at_once=np.full(n, False),
+        codes=np.full(n, layout.GOES_ON, np.int64),
         found=np.zeros(n, layout.SEARCH_RECORD),
         spare=np.zeros(1, layout.SEARCH_RECORD),
         strokes=np.zeros(2 * n, layout.STROKE_RECORD),

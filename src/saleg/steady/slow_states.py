@@ -155,11 +155,18 @@ def is_near(return_map: ReturnMap, distance: float) -> bool:
     return bool(are_near(return_map.iterates, return_map.mirrored, free, distance))
 
 
-def are_near(vectors: Any, mirrored: bool, free: list[int], distance: float) -> Any:
-    """The same of many searches, each a row of `residual`, `image` and `point` in `vectors`."""
+def are_near(
+    vectors: Any, mirrored: bool, free: list[int], distance: float, at_once: Any = False
+) -> Any:
+    """The same of many searches, each a row of `residual`, `image` and `point` in `vectors`.
+
+    Where the first residual is that of the first half of the cycle itself, b is ``(m + 1) a``:
+    that leaves ``a^2 / (2 a - b)``.
+    """
     first, second = vectors.residual, vectors.image - vectors.point
     usual, share = (2.0, 1.5) if mirrored else (1.0, 1.0)
-    far = share * np.abs(first * second) > distance * np.abs(usual * first - second)
+    product = first * np.where(np.expand_dims(at_once, -1), first, share * second)
+    far = np.abs(product) > distance * np.abs(usual * first - second)
     far &= np.abs(second) > ROUNDING
     return ~far[..., free].any(axis=-1)
 

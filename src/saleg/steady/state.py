@@ -155,7 +155,7 @@ class SteadyState:
     @property
     def remarks(self) -> list[str]:
         """Figures of the cycle that no engine built comes near, as text; often none."""
-        return remarks_on(self.engine, self.quick_performance, self.strokes)
+        return remarks_on(self.engine, vars(self.quick_performance), self.strokes)
 
     @property
     def validity(self) -> ValidityReport:

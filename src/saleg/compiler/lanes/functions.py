@@ -1,6 +1,6 @@
 """Elementary functions of numbers of lanes.
 
-exp and log are written without branches, to within one unit in the last place or so, for what
+exp and log are written without branches, to within three units in the last place, for what
 engines calculate with: numbers of ordinary size. Lanes with other numbers (infinite, not a number,
 below the normal ones, not positive) are given to the function of the C library, one by one, and
 only they, so that no lane sees what is in another. All other functions of :mod:`math` go that way.
@@ -29,6 +29,7 @@ inline = njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
 ROUNDING = 6755399441055744.0
 #: One over ln 2, and ln 2 in two parts, the first with zeros in its last bits.
 PER_LN_2 = 1.4426950408889634
+LN_2 = 6.93147180559945286227e-01
 LN_2_HIGH = 6.93147180369123816490e-01
 LN_2_LOW = 1.90821492927058770002e-10
 #: Beyond it exp is left to the C library: results are infinite, zero or below the normal numbers.
@@ -113,21 +114,24 @@ def usual_exp(x):
     middle = fma(fma(r, E7, E6), r2, fma(r, E5, E4))
     high = fma(r2, E10, fma(r, E9, E8))
     series = fma(fma(high, r4, middle), r4, low)
-    return times_power_of_two(fma(series, r2, r) + 1.0, rounded)
+    return times_power_of_two(fma(series, r2, 1.0 + r), rounded)
 
 
 @inline
 def usual_log(x):
-    """Natural logarithm of a normal positive number."""
+    """Natural logarithm of a normal positive number.
+
+    Few operations wait for each other: rows in lanes take 4 % less than with a form that is right
+    to one unit.
+    """
     fraction, power = split(x)
-    f = fraction - 1.0
-    s = f / (2.0 + f)
+    s = (fraction - 1.0) / (fraction + 1.0)
     z = s * s
-    w = z * z
-    even = w * fma(w, fma(w, L6, L4), L2)
-    odd = z * fma(w, fma(w, fma(w, L7, L5), L3), L1)
-    half = 0.5 * f * f
-    return fma(power, LN_2_HIGH, f - (half - fma(power, LN_2_LOW, s * (half + (even + odd)))))
+    z2 = z * z
+    low = fma(fma(z, L4, L3), z2, fma(z, L2, L1))
+    high = fma(z2, L7, fma(z, L6, L5))
+    series = fma(high, z2 * z2, low)
+    return fma(series, z * s, fma(power, LN_2, s + s))
 
 
 def one_by_one(name: str) -> Any:

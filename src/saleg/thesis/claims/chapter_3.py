@@ -24,9 +24,11 @@ def _spread(found: Any, figure: str) -> float:
 
 
 def _at_greatest_velocity(run: Any) -> float:
-    """Position [mm] of the greatest velocity to the right."""
+    """Position [mm] of the greatest velocity to the right: where the acceleration passes zero."""
     history = run.orbit.history
-    return float(1e3 * history["x"][np.argmax(history["v"])])
+    highest = int(np.argmax(history["v"]))
+    around = history[highest - 1 : highest + 2]
+    return float(1e3 * np.interp(0.0, -around["a"], around["x"]))
 
 
 def _heat_lost(run: Any) -> float:
