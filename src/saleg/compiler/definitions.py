@@ -4,6 +4,10 @@ Two choices of laws share most of their text. Numba keeps what it has typed and 
 function object, so a module takes over the functions, classes and constants of an earlier one that
 would come out the same: those whose text, and that of all they use, is the same to the letter.
 Entry points are always a module's own, for their machine code is kept under its name.
+
+Only kernels without laws (:mod:`~saleg.compiler.linking`) are composed so: what is kept of them
+names no module, where numba would look for an earlier one in the next process; and a law's function
+compiled for one record would serve another that begins alike.
 """
 
 from __future__ import annotations
@@ -23,6 +27,8 @@ _lock = threading.Lock()
 _known: dict[str, Any] = {}
 #: Modules that are not in `_known` yet: a process that needs no second one is spared the parsing.
 _waiting: list[tuple[str, ModuleType, frozenset[str]]] = []
+#: What modules were given: it is told apart by identity, so none of it may make room for another.
+_given: list[Any] = []
 
 
 def execute(text: str, module: ModuleType) -> None:
@@ -81,7 +87,7 @@ def _digests(tree: ast.Module, text: str, given: dict[str, Any]) -> dict[str, st
         for name in _defined(code):
             own[name] = own.get(name, "") + _source(statement, lines)
             used.setdefault(name, set()).update(uses)
-    # What a module is given is known by its identity; it lives as long as the module.
+    _given.extend(given.values())
     own |= {name: str(id(value)) for name, value in given.items() if name not in own}
     closures = {name: sorted(_closure(name, own, used)) for name in used}
     return {

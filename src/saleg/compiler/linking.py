@@ -173,11 +173,9 @@ def _library(context: Any, bitcode: bytes, laws: Mapping[str, Any]) -> InnerLibr
             _define(context, module, slot, *law)
     library.add_llvm_module(binding.parse_bitcode(bitcode))
     library.add_ir_module(module)
-    linked_module = library._get_module_for_linking()
-    # As in `lowered`: laws may be those of an earlier module, which is not there next time.
-    for item in (*linked_module.functions, *linked_module.global_variables):
-        if not item.is_declaration and item.name != ENTRY:
-            item.linkage = "internal"
+    for function in library._get_module_for_linking().functions:
+        if function.name.startswith(PREFIX):
+            function.linkage = "internal"
     return library
 
 

@@ -21,6 +21,9 @@ from saleg.files.lock import locked
 
 _numbers = itertools.count()
 
+#: What the text of a kernel without laws finds defined.
+DECLARED = "DECLARED"
+
 
 class Loaded(NamedTuple):
     """A module that has been executed.
@@ -104,7 +107,10 @@ def _execute(text: str, stem: str, filename: str, names: dict[str, Any] | None) 
     module.__file__ = filename
     module.__dict__.update(names or {}, INNER=machine_code.inner_compiler())
     sys.modules[stem] = module
-    definitions.execute(text, module)
+    if DECLARED in (names or {}):
+        definitions.execute(text, module)
+    else:
+        exec(compile(text, filename, "exec"), module.__dict__)
     return module
 
 

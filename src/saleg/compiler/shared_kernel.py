@@ -13,7 +13,7 @@ from typing import Any
 
 from saleg.compiler import machine_code
 from saleg.compiler.cache import warn_of_no_cache
-from saleg.compiler.module import digest, load
+from saleg.compiler.module import DECLARED, digest, load
 from saleg.compiler.needs import Needs
 from saleg.compiler.text import compose_kernel
 from saleg.files.atomic import write_bytes
@@ -47,7 +47,7 @@ class SharedKernel:
 
     def _kept(self, run: Any) -> bytes:
         """The kernel from the cache folder, put there if need be."""
-        module, kept = load(self._text, "shared", {"DECLARED": machine_code.declared})
+        module, kept = load(self._text, "shared", {DECLARED: machine_code.declared})
         if kept is None:
             return machine_code.lowered(module.run_on, run)
         path = kept.code / f"{kept.path.stem}.{digest(str(run))}.bc"
