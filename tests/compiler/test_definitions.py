@@ -5,7 +5,9 @@ import types
 
 import pytest
 
-from saleg.compiler import definitions
+from saleg.compiler import definitions, machine_code
+from saleg.compiler.needs import Needs
+from saleg.compiler.text import compose_kernel
 
 numbers = itertools.count()
 TEXT = """
@@ -67,3 +69,21 @@ def test_entry_points_are_a_modules_own():
     first, second = executed(), executed()
     assert second.entry is not first.entry
     assert second.alone is first.alone
+
+
+def test_kernels_share_what_does_not_depend_on_the_needs():
+    modules = []
+    for needs in (Needs(False, False), Needs(True, False)):
+        module = types.ModuleType(f"kernel_{next(numbers)}")
+        module.__file__ = "kernel.py"
+        module.INNER, module.DECLARED = machine_code.inner_compiler(), machine_code.declared
+        definitions.execute(compose_kernel(needs), module)
+        modules.append(module)
+    plain, motored = modules
+    for name in ("clearance_of", "orifice_flow", "cubic_root", "heat_loss"):
+        assert getattr(motored, name) is getattr(plain, name)
+    # These ask for the motored pressure themselves, step it, or call what does.
+    for name in ("chamber_rates", "error_norm", "take_adaptive_step", "locate", "watch_step"):
+        assert getattr(motored, name) is not getattr(plain, name)
+    assert motored.MOTORED_PRESSURE_IS_WANTED is True
+    assert plain.MOTORED_PRESSURE_IS_WANTED is False
