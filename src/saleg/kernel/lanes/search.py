@@ -192,16 +192,20 @@ def begin_cycle_of(searches, row, mapping, iterates):
 
 @compiled
 def end_cycle_of(searches, row, mapping, iterates, code):
-    """Judge and record the whole cycle just taken."""
+    """Judge and record the whole cycle just taken, or its second half where the first is known."""
     run = mapping.integration
     code = end_return(run, WHOLE_CYCLE, code)
     end_cycle(run, iterates, searches.found[row])
     searches.codes[row] = code
     put_down(searches, row, mapping, iterates)
-    if code == END_OF_TIME and run.engine[0].direction <= 0.0:
+    from_the_right = code == END_OF_TIME and run.engine[0].direction <= 0.0
+    if from_the_right:
         run.options[0].part = WHOLE
         begin_on_the_left(mapping, iterates, searches.spare[0])
-    keep_cycle(searches, row, run)
+    if from_the_right or not searches.at_once[row]:
+        keep_cycle(searches, row, run)
+    else:
+        keep_stroke(searches, row, 1, run)
 
 
 @compiled
@@ -211,21 +215,6 @@ def begin_second_half_of(searches, row, mapping, iterates):
     for n in range(N_VECTOR):
         iterates.point[n], iterates.residual[n] = searches.point[row, n], searches.residual[row, n]
     begin_second_half(mapping.integration, searches.starts.engine[row].mass)
-
-
-@compiled
-def end_second_half_of(searches, row, mapping, iterates, code):
-    """Judge and record the second half of a cycle just taken."""
-    run = mapping.integration
-    code = end_return(run, WHOLE_CYCLE, code)
-    end_cycle(run, iterates, searches.found[row])
-    searches.codes[row] = code
-    put_down(searches, row, mapping, iterates)
-    keep_stroke(searches, row, 1, run)
-    if code == END_OF_TIME and run.engine[0].direction <= 0.0:
-        run.options[0].part = WHOLE
-        begin_on_the_left(mapping, iterates, searches.spare[0])
-        keep_cycle(searches, row, run)
 
 
 @compiled
@@ -248,9 +237,7 @@ def take_all_cycles(lanes, searches, at_once, begun, end):
         for lane in range(lanes.row.shape[0]):
             row, code = lanes.row[lane], lanes.group.codes[lane]
             mapping, iterates = mapping_of(lanes, lane, WHOLE_CYCLE), iterates_of(lanes, lane)
-            if row >= 0 and at_once:
-                end_second_half_of(searches, row, mapping, iterates, code)
-            elif row >= 0:
+            if row >= 0:
                 end_cycle_of(searches, row, mapping, iterates, code)
             lanes.row[lane] = -1
             if begun < end:
