@@ -45,7 +45,7 @@ from saleg.kernel.layout import (
 )
 from saleg.kernel.needs import N_WANTED
 from saleg.kernel.observe import observe
-from saleg.kernel.peaks import watch_point, watch_step
+from saleg.kernel.peaks import forget_slopes, watch_point, watch_step
 from saleg.kernel.rhs import refresh, rhs
 from saleg.kernel.rows import has_room
 from saleg.kernel.state import clearance_of, keep_snapshot
@@ -246,6 +246,7 @@ def run_on(run):
     last_step = E.steps + O.max_steps
     if O.part != END_OF_STEP:
         spare.trail[N_PEAKS] = 0.0
+        forget_slopes(spare.slopes)
         refresh(P, E, C, y)
         rhs(P, E, C, E.t, y, k[0], O.motored)
         E.evaluations += 1.0
@@ -277,7 +278,7 @@ def run_on(run):
             E.direction = copysign(1.0, y_new[V]) if y_new[V] != 0.0 else 0.0
         h, landed = advance_to_event(P, E, C, O, tableau, full, aim, y, k, y_new)
         if O.peaks > 0:
-            watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare)
+            watch_step(P, E, C, O, h, y, k[0], y_new, k[stages], peaks, spare)
         if O.dense > 0:
             observe_within(P, E, C, O, tableau, h, y, k, spare, tables)
         accept(E, O, h, full, end, y, y_new, k, stages)

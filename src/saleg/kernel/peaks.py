@@ -12,7 +12,6 @@ from saleg.kernel.breathing import breathes, dilution, has_own_pressure
 from saleg.kernel.events import cubic, pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
-    BURNING,
     FUEL,
     G0,
     N_PEAKS,
@@ -29,7 +28,6 @@ from saleg.kernel.layout import (
 from saleg.kernel.needs import N_WANTED
 from saleg.kernel.rhs import rhs
 from saleg.kernel.state import clearance_of
-from saleg.kernel.step import take_step
 from saleg.laws.choice import where
 
 # Share of the greatest value so far below which both ends of a step promise no greater one within.
@@ -80,20 +78,23 @@ def known_rate(C, peak, y, dy):
 
 
 @compiled
-def found_rate(P, E, C, peak, t, way, y, dy, spare_y, spare_dy, motored):
-    """Time derivative of acceleration or pressure rise, by a difference along the solution.
+def find_slopes(P, E, C, t, way, y, dy, spare, slopes, motored):
+    """Time derivatives of acceleration and pressure rises, by a difference along the solution.
 
-    An exact one would need the derivative of every law. `way` is 1 for a difference with what
+    Exact ones would need the derivative of every law. `way` is 1 for a difference with what
     follows, -1 for one with what was before: at either end of a step it stays within.
     """
     dt = way * 1e-6 * E.length_scale / E.speed_scale
     for n in range(N_STATE):
-        spare_y[n] = y[n] + dt * dy[n]
+        spare.y[n] = y[n] + dt * dy[n]
     for n in range(FUEL, min(SUPPLIED, N_WANTED)):
-        spare_y[n] = y[n] + dt * dy[n]
-    rhs(P, E, C, t + dt, spare_y, spare_dy, motored)
+        spare.y[n] = y[n] + dt * dy[n]
+    rhs(P, E, C, t + dt, spare.y, spare.dy, motored)
     E.evaluations += 1.0
-    return (watched(C, peak, spare_y, spare_dy) - watched(C, peak, y, dy)) / dt
+    for peak in range(N_PEAKS):
+        if is_costly(peak):
+            later, now = watched(C, peak, spare.y, spare.dy), watched(C, peak, y, dy)
+            slopes[peak] = (later - now) / dt
 
 
 @inline
@@ -142,44 +143,34 @@ def is_passed(C, peak, y, dy, y_new, dy_new):
 
 
 @inline
-def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
+def watch_step(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare):
     """Take the peaks within a step from `y` to `y_new` into account.
 
     Only if the options ask for all (`peaks` = 2) are those of acceleration and pressure rise
-    located and the others approached by a further step: that costs evaluations. Maxima at events
-    are left to :func:`watch_point`.
+    located: that costs evaluations. Maxima at events are left to :func:`watch_point`.
     """
-    last = tableau.b.shape[0]
     if h <= 0.0:
         return
+    if O.peaks > 1:
+        keep_slopes(E, spare)
     for peak in range(N_PEAKS):
         if is_costly(peak):
             if O.peaks > 1:
-                expected = may_peak(C, peak, h, y, k[0], y_new, k[last], peaks, spare.trail)
-                spare.trail[peak] = watched(C, peak, y, k[0])
-                peaks[peak] = max(peaks[peak], spare.trail[peak])
+                expected = may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, spare.trail)
+                q0, q1 = watched(C, peak, y, dy), watched(C, peak, y_new, dy_new)
+                spare.trail[peak] = q0
+                peaks[peak] = max(peaks[peak], q0, q1)
                 if expected:
-                    approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
-        elif rises(C, peak, y, k[0]) and not rises(C, peak, y_new, k[last]):
+                    approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak)
+        elif is_passed(C, peak, y, dy, y_new, dy_new):
             if O.peaks > 1:
-                approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
+                approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak)
             else:
-                q0, q1 = watched(C, peak, y, k[0]), watched(C, peak, y_new, k[last])
-                r0, r1 = known_rate(C, peak, y, k[0]), known_rate(C, peak, y_new, k[last])
-                if peak < PEAK_VELOCITY:
-                    r0, r1 = r0 * q0, r1 * q1
+                q0, r0 = known_value_and_rate(C, peak, y, dy)
+                q1, r1 = known_value_and_rate(C, peak, y_new, dy_new)
                 top = cubic(q0, r0, q1, r1, h, top_of_cubic(q0, r0, q1, r1, h))
                 peaks[peak] = max(peaks[peak], q0, q1, top)
     spare.trail[N_PEAKS] = h
-
-
-@inline
-def is_burning(C, peak):
-    """Whether combustion drives a watched quantity: in its chamber, or in either."""
-    left, right = C[0].mode == BURNING, C[1].mode == BURNING
-    if peak == PEAK_ACCELERATION:
-        return left | right
-    return left if peak % 2 == 0 else right
 
 
 @inline
@@ -196,30 +187,68 @@ def may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, trail):
     reach = q0 + h * max(slope_before, 0.0)
     high = (q0 > PROMISING * peaks[peak]) | (q1 > PROMISING * peaks[peak]) | (reach > peaks[peak])
     slows = where(slope_before > 0.0, slope < GOES_ON_RISING * slope_before, slope > 0.0)
-    return begins | (high & (slows | is_burning(C, peak)))
+    return high & (begins | slows)
 
 
-@compiled
-def value_and_rate(P, E, C, peak, t, way, y, dy, spare_y, spare_dy, motored):
-    """A watched quantity and its time derivative, on the later or the earlier side of a time."""
-    value = watched(C, peak, y, dy)
-    if is_costly(peak):
-        return value, found_rate(P, E, C, peak, t, way, y, dy, spare_y, spare_dy, motored)
-    rate = known_rate(C, peak, y, dy)
+@inline
+def forget_slopes(slopes):
+    """Nothing is known of the slopes at either end of a step."""
+    slopes[0, N_PEAKS] = slopes[1, N_PEAKS] = -1.0
+
+
+@inline
+def keep_slopes(E, spare):
+    """Take the slopes at the end of the step before, if they were found, for those at the begin."""
+    slopes = spare.slopes
+    if slopes[1, N_PEAKS] == E.steps - 1.0 and spare.trail[N_PEAKS] > 0.0:
+        for peak in range(N_PEAKS):
+            slopes[0, peak] = slopes[1, peak]
+        slopes[0, N_PEAKS] = E.steps
+
+
+@inline
+def known_value_and_rate(C, peak, y, dy):
+    """A watched quantity and its time derivative where the state gives both."""
+    value, rate = watched(C, peak, y, dy), known_rate(C, peak, y, dy)
     return value, rate if peak == PEAK_VELOCITY else rate * value
 
 
+@inline
+def look_at(P, E, C, t, way, y, dy, spare, slopes, motored):
+    """Find the slopes at one end of the present step, unless they are known."""
+    if slopes[N_PEAKS] != E.steps:
+        find_slopes(P, E, C, t, way, y, dy, spare, slopes, motored)
+        slopes[N_PEAKS] = E.steps
+
+
 @compiled
-def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
-    """Locate a peak within a step by shorter steps of the same method, and a cubic from there."""
+def value_and_rate(P, E, C, peak, t, way, y, dy, spare, slopes, motored):
+    """A watched quantity and its time derivative, on the later or the earlier side of a time."""
+    if is_costly(peak):
+        look_at(P, E, C, t, way, y, dy, spare, slopes, motored)
+        return watched(C, peak, y, dy), slopes[peak]
+    return known_value_and_rate(C, peak, y, dy)
+
+
+@inline
+def look_within(P, E, C, t, h, s, y, dy, y_new, dy_new, inner, rates, motored):
+    """State and rates within a step, along the cubic through both ends."""
+    for n in range(N_WANTED):
+        inner[n] = cubic(y[n], dy[n], y_new[n], dy_new[n], h, s)
+    rhs(P, E, C, t + s, inner, rates, motored)
+    E.evaluations += 1.0
+
+
+@compiled
+def approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak):
+    """Locate a peak within a step by looking where a cubic is greatest, and read it off the next."""
     t, motored = E.t, O.motored
-    last = tableau.b.shape[0]
-    spare_y, spare_dy, spare_k, inner = spare.y, spare.dy, spare.rates, spare.y_new
+    slopes, inner, rates = spare.slopes, spare.y_new, spare.rates[0]
     low, high = 0.0, h
-    q0, r0 = value_and_rate(P, E, C, peak, t, 1.0, y, k[0], spare_y, spare_dy, motored)
+    q0, r0 = value_and_rate(P, E, C, peak, t, 1.0, y, dy, spare, slopes[0], motored)
     if r0 <= 0.0:
         return
-    q1, r1 = value_and_rate(P, E, C, peak, t + h, -1.0, y_new, k[last], spare_y, spare_dy, motored)
+    q1, r1 = value_and_rate(P, E, C, peak, t + h, -1.0, y_new, dy_new, spare, slopes[1], motored)
     peaks[peak] = max(peaks[peak], q0, q1)
     for _ in range(LOOKS):
         if r0 <= 0.0 or r1 > 0.0:
@@ -228,11 +257,9 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
         top, s = cubic(q0, r0, q1, r1, high - low, way), low + way
         if top < PROMISING * peaks[peak] or not low < s < high:
             return
-        for n in range(N_WANTED):
-            spare_k[0, n] = k[0, n]
-        take_step(P, E, C, O, tableau, t, s, y, spare_k, inner)
-        now, dy = t + s, spare_k[last]
-        q, r = value_and_rate(P, E, C, peak, now, 1.0, inner, dy, spare_y, spare_dy, motored)
+        look_within(P, E, C, t, h, s, y, dy, y_new, dy_new, inner, rates, motored)
+        slopes[2, N_PEAKS] = -1.0
+        q, r = value_and_rate(P, E, C, peak, t + s, 1.0, inner, rates, spare, slopes[2], motored)
         peaks[peak] = max(peaks[peak], q)
         if r > 0.0:
             low, q0, r0 = s, q, r

@@ -88,6 +88,9 @@ class Spare(NamedTuple):
         State at the end.
     trail : ndarray, shape (N_PEAKS + 1,)
         Watched quantities at the begin of the step before, and the length of that step.
+    slopes : ndarray, shape (3, N_PEAKS + 1)
+        Their time derivatives at the begin of a step, at its end and within, and which step it is
+        by the count of steps.
     """
 
     y: Any
@@ -95,6 +98,7 @@ class Spare(NamedTuple):
     rates: Any
     y_new: Any
     trail: Any
+    slopes: Any
 
 
 class Scratch(NamedTuple):

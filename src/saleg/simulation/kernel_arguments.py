@@ -98,5 +98,6 @@ def _scratch(stages: int) -> Scratch:
         rates=np.zeros((stages + 1, n)),
         y_new=np.zeros(n),
         trail=np.zeros(layout.N_PEAKS + 1),
+        slopes=np.zeros((3, layout.N_PEAKS + 1)),
     )
     return Scratch(rates=np.zeros((stages + 1, n)), y_new=np.zeros(n), spare=spare)

@@ -90,7 +90,7 @@ def _runs(run: Integration, width: int) -> Integration:
         scratch=Scratch(
             rates=for_each(run.scratch.rates),
             y_new=for_each(run.scratch.y_new),
-            spare=spare._replace(trail=for_each(spare.trail)),
+            spare=spare._replace(trail=for_each(spare.trail), slopes=for_each(spare.slopes)),
         ),
         control=run.control,
     )

@@ -127,7 +127,14 @@ def run_of(runs, lane):
         Scratch(
             scratch.rates[lane],
             scratch.y_new[lane],
-            Spare(spare.y, spare.dy, spare.rates, spare.y_new, spare.trail[lane]),
+            Spare(
+                spare.y,
+                spare.dy,
+                spare.rates,
+                spare.y_new,
+                spare.trail[lane],
+                spare.slopes[lane],
+            ),
         ),
         runs.control,
     )
