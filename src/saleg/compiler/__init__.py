@@ -31,7 +31,7 @@ The laws fill the slots, and :mod:`~saleg.compiler.linking` links them into that
 
     import numba
     inline = numba.njit(
-    cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)
+    cached = numba.njit(
     # --- laws/arguments.py
     class Gas(NamedTuple):
     def both_heat_release_burn_rate__wiebe_rate(u, a, b):

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
+from types import CodeType, SimpleNamespace
 from typing import Any
 
 from llvmlite.binding import Linkage
@@ -21,7 +22,8 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder, Flags
 
 #: Passes for what laws and kernel do not have: contexts, functions to be inlined before their types
-#: are known, loops over tuples of mixed types, expressions of whole arrays, parallel loops.
+#: are known, loops over tuples of mixed types, expressions of whole arrays, parallel loops; what
+#: frees objects that nobody counts; comments.
 NEEDLESS = frozenset(
     {
         untyped_passes.WithLifting,
@@ -30,9 +32,13 @@ NEEDLESS = frozenset(
         untyped_passes.LiteralUnroll,
         untyped_passes.LiteralPropagationSubPipelinePass,
         typed_passes.NopythonRewrites,
+        typed_passes.IRLegalization,
+        typed_passes.AnnotateTypes,
         typed_passes.DumpParforDiagnostics,
     }
 )
+#: What functions within a function need beside.
+FOR_CLOSURES = untyped_passes.InlineClosureLikes
 
 
 class InnerLibrary(JITCodeLibrary):
@@ -159,6 +165,37 @@ class InnerCompiler(CompilerBase):
         state = self.state
         if state.library is None:
             state.library = InnerLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
-        passes = DefaultPassBuilder.define_nopython_pipeline(state)
-        passes.passes = [item for item in passes.passes if item[0] not in NEEDLESS]
-        return [passes]
+        has_closures = any(isinstance(one, CodeType) for one in state.func_id.code.co_consts)
+        return [quick_passes(state.flags, has_closures)]
+
+
+@lru_cache(maxsize=16)
+def quick_passes(flags: QuickFlags, has_closures: bool) -> Any:
+    """Passes of numba's own for functions compiled with some flags, but for the needless ones."""
+    passes = DefaultPassBuilder.define_nopython_pipeline(SimpleNamespace(func_ir=None, flags=flags))
+    needless = NEEDLESS if has_closures else NEEDLESS | {FOR_CLOSURES}
+    passes.passes = [item for item in passes.passes if item[0] not in needless]
+    return passes
+
+
+class EntryLibrary(JITCodeLibrary):
+    """Code of an entry point: optimised once.
+
+    Numba does so twice, at first to bring counts of references together; there are none.
+    """
+
+    def _optimize_final_module(self) -> None:
+        manager, builder = self._codegen._module_pass_manager()
+        manager.run(self._final_module, builder)
+
+
+class EntryCompiler(CompilerBase):
+    """Compiler of an entry point."""
+
+    def define_pipelines(self) -> list[Any]:
+        """Passes of numba's own."""
+        state = self.state
+        if state.library is None:
+            state.library = EntryLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+            state.library.enable_object_caching()
+        return [DefaultPassBuilder.define_nopython_pipeline(state)]

@@ -41,17 +41,23 @@ INNER_NEEDS = (
     "llvmlite.binding:Linkage.external",
     "numba.core.codegen:JITCodeLibrary._get_module_for_linking",
     "numba.core.codegen:JITCodeLibrary._raise_if_finalized",
+    "numba.core.codegen:JITCodeLibrary._optimize_final_module",
     "numba.core.codegen:JITCodeLibrary._optimize_functions",
     "numba.core.codegen:JITCodeLibrary._finalize_final_module",
     "numba.core.codegen:JITCodeLibrary._finalize_dynamic_globals",
+    "numba.core.codegen:JITCodeLibrary.enable_object_caching",
+    "numba.core.codegen:JITCPUCodegen._module_pass_manager",
     "numba.core.compiler:CompilerBase.define_pipelines",
     "numba.core.compiler:DefaultPassBuilder.define_nopython_pipeline",
     "numba.core.compiler:Flags.values",
     "numba.core.types:Function",
     "numba.core.typing.context:BaseContext.resolve_function_type",
+    "numba.core.typed_passes:AnnotateTypes",
     "numba.core.typed_passes:DumpParforDiagnostics",
+    "numba.core.typed_passes:IRLegalization",
     "numba.core.typed_passes:NopythonRewrites",
     "numba.core.untyped_passes:FindLiterallyCalls",
+    "numba.core.untyped_passes:InlineClosureLikes",
     "numba.core.untyped_passes:InlineInlinables",
     "numba.core.untyped_passes:LiteralPropagationSubPipelinePass",
     "numba.core.untyped_passes:LiteralUnroll",
@@ -62,6 +68,10 @@ INNER_NEEDS = (
 LINKING_NEEDS = (
     *INNER_NEEDS,
     *ADDRESS_NEEDS,
+    "llvmlite.binding:create_new_module_pass_manager",
+    "llvmlite.binding.newpassmanagers:ModulePassManager.add_instruction_combine_pass",
+    "llvmlite.binding.newpassmanagers:ModulePassManager.add_simplify_cfg_pass",
+    "llvmlite.binding.newpassmanagers:ModulePassManager.add_sroa_pass",
     "numba.core.base:BaseContext.make_tuple",
     "numba.core.base:BaseContext.push_code_library",
     "numba.core.callconv:CPUCallConv._get_arg_packer",
@@ -70,6 +80,7 @@ LINKING_NEEDS = (
     "numba.core.codegen:JITCodeLibrary.add_ir_module",
     "numba.core.codegen:JITCodeLibrary.add_llvm_module",
     "numba.core.codegen:JITCodeLibrary.create_ir_module",
+    "numba.core.codegen:JITCPUCodegen._pass_builder",
     "numba.core.compiler_lock:global_compiler_lock",
     "numba.core.types:NamedUniTuple",
 )
@@ -99,6 +110,15 @@ def inner_compiler() -> Any:
     from saleg.compiler.inner_functions import InnerCompiler
 
     return InnerCompiler
+
+
+def entry_compiler() -> Any:
+    """Compiler of entry points; None, which stands for numba's own, where numba has changed."""
+    if not _all_exist(INNER_NEEDS):
+        return None
+    from saleg.compiler.inner_functions import EntryCompiler
+
+    return EntryCompiler
 
 
 def has_halves() -> bool:

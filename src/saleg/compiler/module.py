@@ -47,8 +47,8 @@ def load(
     Parameters
     ----------
     text : str
-        Finds in ``ON_DISK`` whether its machine code is to be kept, and in ``INNER`` the compiler
-        of functions that are no entry points.
+        Finds in ``ON_DISK`` whether its machine code is to be kept, in ``ENTRY`` the compiler of
+        entry points, and in ``INNER`` that of other functions.
     kind : str
         What it is of, for its name.
     names : dict, optional
@@ -105,7 +105,8 @@ def _execute(text: str, stem: str, filename: str, names: dict[str, Any] | None) 
     """Run a text as a module; nothing but this very text is executed, whatever the file holds."""
     module = types.ModuleType(stem)
     module.__file__ = filename
-    module.__dict__.update(names or {}, INNER=machine_code.inner_compiler())
+    compilers = {"INNER": machine_code.inner_compiler(), "ENTRY": machine_code.entry_compiler()}
+    module.__dict__.update(names or {}, **compilers)
     sys.modules[stem] = module
     if DECLARED in (names or {}):
         definitions.execute(text, module)

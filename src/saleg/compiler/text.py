@@ -134,8 +134,17 @@ integrate = LINKED(globals())
 def run_on(run):
     return integrate(run)
 """
-#: What a module is loaded with says whether it is kept.
-CACHED = 'cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, cache=ON_DISK)\n'
+#: What a module is loaded with says whether it is kept, and how it is compiled.
+CACHED = """\
+cached = numba.njit(
+    error_model="numpy",
+    _nrt=False,
+    nogil=True,
+    no_cfunc_wrapper=True,
+    cache=ON_DISK,
+    pipeline_class=ENTRY,
+)
+"""
 
 
 @one_at_a_time
