@@ -1,9 +1,9 @@
 """Greatest values within a stroke, located between the ends of steps.
 
-A quantity whose rate changes from rising to falling within a step has its peak inside it. The
-peak is approached by shorter steps to where a cubic has its maximum, until the cubic is right
-about the value there, and read off a last cubic between there and the nearer end. What the ends of
-steps show counts in any case.
+A quantity whose rate changes from rising to falling within a step has its peak inside it. It is
+looked for where a cubic has its maximum, in the state there, which lies on the cubics through both
+ends of the step, until the cubic is right about the value, and read off a last cubic between there
+and the nearer end. What the ends of steps show counts in any case.
 """
 
 from math import sqrt
@@ -162,7 +162,7 @@ def watch_step(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare):
                 peaks[peak] = max(peaks[peak], q0, q1)
                 if expected:
                     approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak)
-        elif is_passed(C, peak, y, dy, y_new, dy_new):
+        elif rises(C, peak, y, dy) and not rises(C, peak, y_new, dy_new):
             if O.peaks > 1:
                 approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak)
             else:
@@ -241,7 +241,7 @@ def look_within(P, E, C, t, h, s, y, dy, y_new, dy_new, inner, rates, motored):
 
 @compiled
 def approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak):
-    """Locate a peak within a step by looking where a cubic is greatest, and read it off the next."""
+    """Locate a peak within a step by looking where a cubic is greatest; the next one has it."""
     t, motored = E.t, O.motored
     slopes, inner, rates = spare.slopes, spare.y_new, spare.rates[0]
     low, high = 0.0, h
@@ -258,7 +258,7 @@ def approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak):
         if top < PROMISING * peaks[peak] or not low < s < high:
             return
         look_within(P, E, C, t, h, s, y, dy, y_new, dy_new, inner, rates, motored)
-        slopes[2, N_PEAKS] = -1.0
+        slopes[2, N_PEAKS] = -1.0  # those of another place than before
         q, r = value_and_rate(P, E, C, peak, t + s, 1.0, inner, rates, spare, slopes[2], motored)
         peaks[peak] = max(peaks[peak], q)
         if r > 0.0:
