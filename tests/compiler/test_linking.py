@@ -55,7 +55,8 @@ def run_on(run):
 
 def module_of(text, **names):
     module = types.ModuleType("toy")
-    module.__dict__.update(names, INNER=machine_code.inner_compiler(), ON_DISK=False)
+    compilers = {"INNER": machine_code.inner_compiler(), "ENTRY": machine_code.entry_compiler()}
+    module.__dict__.update(names, **compilers, ON_DISK=False)
     parts = [HEADER, COMPILED_HEADER + CACHED, CHOICE, own_text("laws/arguments.py"), text]
     exec("\n".join(parts), module.__dict__)
     return module

@@ -72,12 +72,13 @@ def test_this_numba_compiles_inner_functions_with_their_callers():
 def test_all_that_inner_functions_need_is_asked_for(name, monkeypatch):
     monkeypatch.setattr(machine_code, "INNER_NEEDS", (name + "_gone",))
     assert machine_code.inner_compiler() is None
+    assert machine_code.entry_compiler() is None
 
 
 INNER = """
 import numba
 {header}
-cached = numba.njit(error_model="numpy", _nrt=False, nogil=True)
+cached = numba.njit(error_model="numpy", _nrt=False, nogil=True, pipeline_class=ENTRY)
 
 @inline
 def root(a):
@@ -102,8 +103,8 @@ def both(n):
 
 @pytest.mark.parametrize("has_changed", [False, True])
 def test_inner_functions_return_and_raise_as_numba_does(has_changed):
-    compiler = None if has_changed else machine_code.inner_compiler()
-    names = {"INNER": compiler}
+    inner, entry = machine_code.inner_compiler(), machine_code.entry_compiler()
+    names = {"INNER": None if has_changed else inner, "ENTRY": None if has_changed else entry}
     exec(INNER.format(header=COMPILED_HEADER), names)
     assert names["both"](9) == (sum(math.sqrt(i) for i in range(9)), 2.0)
     with pytest.raises(ValueError, match="negative"):

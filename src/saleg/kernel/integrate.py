@@ -278,7 +278,7 @@ def run_on(run):
             E.direction = copysign(1.0, y_new[V]) if y_new[V] != 0.0 else 0.0
         h, landed = advance_to_event(P, E, C, O, tableau, full, aim, y, k, y_new)
         if O.peaks > 0:
-            watch_step(P, E, C, O, h, y, k[0], y_new, k[stages], peaks, spare)
+            watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare)
         if O.dense > 0:
             observe_within(P, E, C, O, tableau, h, y, k, spare, tables)
         accept(E, O, h, full, end, y, y_new, k, stages)

@@ -1,9 +1,8 @@
 """Greatest values within a stroke, located between the ends of steps.
 
 A quantity whose rate changes from rising to falling within a step has its peak inside it. It is
-looked for where a cubic has its maximum, in the state there, which lies on the cubics through both
-ends of the step, until the cubic is right about the value, and read off a last cubic between there
-and the nearer end. What the ends of steps show counts in any case.
+looked for where a cubic has its maximum until the cubic is right about the value there, and read
+off a last one between there and the nearer end. What the ends of steps show counts in any case.
 """
 
 from math import sqrt
@@ -28,6 +27,7 @@ from saleg.kernel.layout import (
 from saleg.kernel.needs import N_WANTED
 from saleg.kernel.rhs import rhs
 from saleg.kernel.state import clearance_of
+from saleg.kernel.step import take_step
 from saleg.laws.choice import where
 
 # Share of the greatest value so far below which both ends of a step promise no greater one within.
@@ -143,7 +143,7 @@ def is_passed(C, peak, y, dy, y_new, dy_new):
 
 
 @inline
-def watch_step(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare):
+def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
     """Take the peaks within a step from `y` to `y_new` into account.
 
     Only if the options ask for all (`peaks` = 2) are those of acceleration and pressure rise
@@ -151,6 +151,7 @@ def watch_step(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare):
     """
     if h <= 0.0:
         return
+    dy, dy_new = k[0], k[tableau.b.shape[0]]
     if O.peaks > 1:
         keep_slopes(E, spare)
     for peak in range(N_PEAKS):
@@ -161,10 +162,10 @@ def watch_step(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare):
                 spare.trail[peak] = q0
                 peaks[peak] = max(peaks[peak], q0, q1)
                 if expected:
-                    approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak)
+                    approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
         elif rises(C, peak, y, dy) and not rises(C, peak, y_new, dy_new):
             if O.peaks > 1:
-                approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak)
+                approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak)
             else:
                 q0, r0 = known_value_and_rate(C, peak, y, dy)
                 q1, r1 = known_value_and_rate(C, peak, y_new, dy_new)
@@ -230,25 +231,35 @@ def value_and_rate(P, E, C, peak, t, way, y, dy, spare, slopes, motored):
     return known_value_and_rate(C, peak, y, dy)
 
 
-@inline
-def look_within(P, E, C, t, h, s, y, dy, y_new, dy_new, inner, rates, motored):
-    """State and rates within a step, along the cubic through both ends."""
-    for n in range(N_WANTED):
-        inner[n] = cubic(y[n], dy[n], y_new[n], dy_new[n], h, s)
-    rhs(P, E, C, t + s, inner, rates, motored)
-    E.evaluations += 1.0
+@compiled
+def look_within(P, E, C, O, tableau, peak, s, h, y, k, y_new, inner, rates):
+    """State and rates at a time `s` within a step, by a shorter step of the same method.
+
+    Where a difference follows that costs an evaluation anyway, along the cubic through both ends.
+    """
+    last = tableau.b.shape[0]
+    if is_costly(peak):
+        for n in range(N_WANTED):
+            inner[n] = cubic(y[n], k[0, n], y_new[n], k[last, n], h, s)
+        rhs(P, E, C, E.t + s, inner, rates[last], O.motored)
+        E.evaluations += 1.0
+    else:
+        for n in range(N_WANTED):
+            rates[0, n] = k[0, n]
+        take_step(P, E, C, O, tableau, E.t, s, y, rates, inner)
 
 
 @compiled
-def approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak):
+def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
     """Locate a peak within a step by looking where a cubic is greatest; the next one has it."""
     t, motored = E.t, O.motored
-    slopes, inner, rates = spare.slopes, spare.y_new, spare.rates[0]
+    last = tableau.b.shape[0]
+    slopes, inner, dy = spare.slopes, spare.y_new, spare.rates[last]
     low, high = 0.0, h
-    q0, r0 = value_and_rate(P, E, C, peak, t, 1.0, y, dy, spare, slopes[0], motored)
+    q0, r0 = value_and_rate(P, E, C, peak, t, 1.0, y, k[0], spare, slopes[0], motored)
     if r0 <= 0.0:
         return
-    q1, r1 = value_and_rate(P, E, C, peak, t + h, -1.0, y_new, dy_new, spare, slopes[1], motored)
+    q1, r1 = value_and_rate(P, E, C, peak, t + h, -1.0, y_new, k[last], spare, slopes[1], motored)
     peaks[peak] = max(peaks[peak], q0, q1)
     for _ in range(LOOKS):
         if r0 <= 0.0 or r1 > 0.0:
@@ -257,9 +268,9 @@ def approach_peak(P, E, C, O, h, y, dy, y_new, dy_new, peaks, spare, peak):
         top, s = cubic(q0, r0, q1, r1, high - low, way), low + way
         if top < PROMISING * peaks[peak] or not low < s < high:
             return
-        look_within(P, E, C, t, h, s, y, dy, y_new, dy_new, inner, rates, motored)
+        look_within(P, E, C, O, tableau, peak, s, h, y, k, y_new, inner, spare.rates)
         slopes[2, N_PEAKS] = -1.0  # those of another place than before
-        q, r = value_and_rate(P, E, C, peak, t + s, 1.0, inner, rates, spare, slopes[2], motored)
+        q, r = value_and_rate(P, E, C, peak, t + s, 1.0, inner, dy, spare, slopes[2], motored)
         peaks[peak] = max(peaks[peak], q)
         if r > 0.0:
             low, q0, r0 = s, q, r
