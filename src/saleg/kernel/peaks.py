@@ -1,8 +1,9 @@
 """Greatest values within a stroke, located between the ends of steps.
 
 A quantity whose rate changes from rising to falling within a step has its peak inside it. It is
-looked for where a cubic has its maximum until the cubic is right about the value there, and read
-off a last one between there and the nearer end. What the ends of steps show counts in any case.
+approached by shorter steps to where a cubic has its maximum, until the cubic is right about the
+value there, and read off a last cubic between there and the nearer end. What the ends of steps show
+counts in any case.
 """
 
 from math import sqrt
@@ -232,26 +233,8 @@ def value_and_rate(P, E, C, peak, t, way, y, dy, spare, slopes, motored):
 
 
 @compiled
-def look_within(P, E, C, O, tableau, peak, s, h, y, k, y_new, inner, rates):
-    """State and rates at a time `s` within a step, by a shorter step of the same method.
-
-    Where a difference follows that costs an evaluation anyway, along the cubic through both ends.
-    """
-    last = tableau.b.shape[0]
-    if is_costly(peak):
-        for n in range(N_WANTED):
-            inner[n] = cubic(y[n], k[0, n], y_new[n], k[last, n], h, s)
-        rhs(P, E, C, E.t + s, inner, rates[last], O.motored)
-        E.evaluations += 1.0
-    else:
-        for n in range(N_WANTED):
-            rates[0, n] = k[0, n]
-        take_step(P, E, C, O, tableau, E.t, s, y, rates, inner)
-
-
-@compiled
 def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
-    """Locate a peak within a step by looking where a cubic is greatest; the next one has it."""
+    """Locate a peak within a step by shorter steps of the same method, and a cubic from there."""
     t, motored = E.t, O.motored
     last = tableau.b.shape[0]
     slopes, inner, dy = spare.slopes, spare.y_new, spare.rates[last]
@@ -268,7 +251,9 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
         top, s = cubic(q0, r0, q1, r1, high - low, way), low + way
         if top < PROMISING * peaks[peak] or not low < s < high:
             return
-        look_within(P, E, C, O, tableau, peak, s, h, y, k, y_new, inner, spare.rates)
+        for n in range(N_WANTED):
+            spare.rates[0, n] = k[0, n]
+        take_step(P, E, C, O, tableau, t, s, y, spare.rates, inner)
         slopes[2, N_PEAKS] = -1.0  # those of another place than before
         q, r = value_and_rate(P, E, C, peak, t + s, 1.0, inner, dy, spare, slopes[2], motored)
         peaks[peak] = max(peaks[peak], q)
