@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from saleg.compiler.needs import Stretch
+from saleg.kernel.adaptive import MANIFOLD
 from saleg.kernel.tableaus import ADAPTIVE
 
 STEP = '''\
@@ -27,6 +28,18 @@ def take_adaptive_step(P, E, C, t, h, y, k, y_new, motored):
 def defect(k, n):
     """Estimated error of an entry of the state, over the length of the step."""
     return {defect}
+
+
+@inline
+def late_defect(k, n):
+    """The same with the rate at the end of the step in the place of that of its last stage."""
+    return {late_defect}
+
+
+@inline
+def grows_manifold(k, n):
+    """Whether the rate of an entry at the end of the step is many times that at its begin."""
+    return k[{stages}, n] > {manifold!r} * k[0, n]
 '''
 #: Where a stage stands in the step. Quadratures need no stage values: they are summed at its end.
 MOVE = """\
@@ -62,7 +75,14 @@ def adaptive_step(
     moves = [_move(stage, c[stage], A[stage][:stage], states) for stage in range(1, stages)]
     moves.append(_move(stages, 1.0, b, [*states, *sums]))
     keeps = "".join(KEEP.format(first=first, end=end) for first, end in kept)
-    return STEP.format(stages=stages, moves="".join(moves).rstrip(), keeps=keeps, defect=_sum(e))
+    return STEP.format(
+        stages=stages,
+        moves="".join(moves).rstrip(),
+        keeps=keeps,
+        defect=_sum(e),
+        late_defect=_sum([*e[:-2], 0.0, e[-2] + e[-1]]),
+        manifold=MANIFOLD,
+    )
 
 
 def _move(stage: int, node: float, weights: Iterable[float], stretches: Sequence[Stretch]) -> str:

@@ -2,7 +2,7 @@
 
 from math import inf, isfinite
 
-from saleg.kernel.adaptive import defect, take_adaptive_step
+from saleg.kernel.adaptive import defect, grows_manifold, late_defect, take_adaptive_step
 from saleg.kernel.breathing import mass_of
 from saleg.kernel.general import take_general_step
 from saleg.kernel.jit import inline
@@ -29,7 +29,7 @@ from saleg.kernel.needs import (
     MOTORED_PRESSURE_IS_WANTED,
     WALL_TEMPERATURE_IS_WANTED,
 )
-from saleg.laws.choice import where
+from saleg.laws.choice import any_of, where
 
 # Share of fuel in a charge below which its error counts as if there were so much.
 FUEL_SHARE = 0.02
@@ -55,7 +55,8 @@ def error_norm(E, C, h, y, y_new, k, tolerance):
 
     Position is measured by the stroke, velocity by the natural speed, theta (hence pressure)
     relatively, the ignition integral against the larger of itself and 1, masses in a chamber by
-    all of its gas.
+    all of its gas. The estimated error of something that grows exponentially passes through zero
+    where it grows some twentyfold in a step, so there it is estimated in another way too.
     """
     worst, speed = abs(defect(k, X)) / E.length_scale, abs(defect(k, V)) / E.speed_scale
     worst, total = max(worst, speed), worst + speed  # the total is not finite if any of them is not
@@ -63,7 +64,11 @@ def error_norm(E, C, h, y, y_new, k, tolerance):
         error = abs(defect(k, n))
         worst, total = max(worst, error), total + error
     for n in range(IGNITION, MOTORED):
-        error = abs(defect(k, n)) / max(1.0, abs(y[n]), abs(y_new[n]))
+        error = abs(defect(k, n))
+        manifold = grows_manifold(k, n)
+        if any_of(manifold):
+            error = where(manifold, max(error, abs(late_defect(k, n))), error)
+        error /= max(1.0, abs(y[n]), abs(y_new[n]))
         worst, total = max(worst, error), total + error
     if MOTORED_PRESSURE_IS_WANTED:
         for n in range(MOTORED, CURRENT):
