@@ -8,7 +8,7 @@ import pytest
 
 from saleg.compiler.needs import Needs
 from saleg.compiler.unrolled import adaptive_step
-from saleg.kernel import layout
+from saleg.kernel import adaptive, layout
 from saleg.laws import CircuitAlternator, LinearLoad, PortFlow, Woschni
 
 
@@ -18,10 +18,16 @@ def growth(P, E, C, t, y, dy, motored):
     dy[layout.N_STATE :] = t
 
 
-def step_of(needs, h):
-    """End of a step from 1, 2, 3 ..., and the estimated error of position."""
+def names_of(needs):
+    """What the text of a step defines."""
     names = {"compiled": lambda f: f, "inline": lambda f: f, "write_rates": growth}
     exec(adaptive_step(needs.states, needs.kept, needs.sums), names)
+    return names
+
+
+def step_of(needs, h):
+    """End of a step from 1, 2, 3 ..., and the estimated error of position."""
+    names = names_of(needs)
     y = np.arange(1.0, layout.N_ALL + 1.0)
     k, y_new = np.zeros((7, layout.N_ALL)), np.full(layout.N_ALL, math.nan)
     k[0] = y
@@ -71,3 +77,16 @@ def test_a_step_takes_along_the_states_that_laws_ask_for():
     assert y_new[totals] == pytest.approx(y[totals] + h**2 / 2, rel=1e-14)
     kept = slice(layout.WALL, layout.SUPPLIED)
     assert np.array_equal(y_new[kept], y[kept])
+
+
+def test_a_second_estimate_of_the_error_is_written_out_too():
+    needs = Needs.of([Woschni, LinearLoad], motored_pressure=False)
+    names, n = names_of(needs), layout.IGNITION
+    rng = np.random.default_rng(0)
+    for _ in range(100):
+        k = rng.uniform(0.0, 12.0, (7, layout.N_ALL))
+        assert names["late_defect"](k, n) == pytest.approx(adaptive.late_defect(k, n), abs=1e-12)
+        grows = k[6, n] > adaptive.MANIFOLD * k[0, n]
+        assert names["grows_manifold"](k, n) == adaptive.grows_manifold(k, n) == grows
+        k[5] = k[6]  # the last stage and the end of the step see the same
+        assert names["late_defect"](k, n) == pytest.approx(names["defect"](k, n), abs=1e-12)
