@@ -66,7 +66,7 @@ def test_adaptive_and_order_eight_agree(base, converged):
     assert cycle_figures(base, rtol=1e-12) == pytest.approx(converged, rel=1e-11)
 
 
-@pytest.mark.parametrize("egr, ratio", [(0.1, 0.55), (0.05, 0.5)])
+@pytest.mark.parametrize(("egr", "ratio"), [(0.1, 0.55), (0.05, 0.5)])
 def test_no_step_before_ignition_is_too_long(base, egr, ratio):
     """Where the integral grew twentyfold the error was not seen: frequency, stroke and work were
     wrong by up to 3e-5 at some tolerances, and by 1e-6 at those beside them."""
