@@ -1,6 +1,8 @@
 """Numba's inside, and the longer way round where it has changed."""
 
 import math
+import subprocess
+import sys
 import types
 
 import numba
@@ -154,3 +156,21 @@ def test_the_integrator_is_called_by_its_address():
 
 def test_without_addresses_it_is_called_by_name(no_addresses):
     assert integrated(toy(RUN_PLAINLY)) == 0
+
+
+ARRAYS = """
+import sys
+import numba, numpy
+from numba.np import linalg
+from saleg.compiler.machine_code import import_arrays
+asked = linalg.ensure_blas
+import_arrays()
+assert "numba.np.arraymath" in sys.modules and "scipy.linalg" not in sys.modules
+assert linalg.ensure_blas is asked
+product = numba.njit(lambda a: numpy.dot(a, a))
+assert (product(2.0 * numpy.eye(2)) == 4.0 * numpy.eye(2)).all() and "scipy.linalg" in sys.modules
+"""
+
+
+def test_arrays_are_imported_without_blas_until_somebody_asks_for_it():
+    subprocess.run([sys.executable, "-c", ARRAYS], check=True)

@@ -14,6 +14,7 @@ has changed:
   again (:mod:`~saleg.compiler.inner_functions`);
 - a kernel lowered without laws, and laws linked into it (:mod:`~saleg.compiler.linking`); else the
   laws are written into the kernel's text, which is lowered anew for every choice of them;
+- numba's own imports without scipy's BLAS; else a start takes a quarter of a second longer;
 - the folder numba keeps machine code in, to be looked at before anything is loaded; else none is
   kept.
 """
@@ -21,8 +22,11 @@ has changed:
 from __future__ import annotations
 
 import pkgutil
+import sys
+import threading
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -87,6 +91,8 @@ LINKING_NEEDS = (
 
 #: Numba's types of some arguments.
 Types = tuple[Any, ...]
+
+_importing = threading.Lock()
 
 
 def types_of(arguments: Sequence[Any]) -> Types:
@@ -179,7 +185,26 @@ def compile_for(function: Any, types: Types) -> None:
     """Compile a function for arguments of some types, or load its machine code."""
     compile_now = getattr(function, "compile", None)
     if compile_now is not None:
+        import_arrays()
         compile_now(types)
+
+
+def import_arrays() -> None:
+    """Import what numba has for arrays, but for the BLAS of scipy, which no kernel calls.
+
+    Numba asks whether it is there by importing it: a quarter of a second. A law that calls it makes
+    numba ask again.
+    """
+    with _importing:
+        if "numba.np.arraymath" in sys.modules or not _exists("numba.np.linalg:ensure_blas"):
+            return
+        from numba.np import linalg
+
+        asked, linalg.ensure_blas = linalg.ensure_blas, lambda: None
+        try:
+            import_module("numba.np.arraymath")
+        finally:
+            linalg.ensure_blas = asked
 
 
 def entry_point(function: Any, types: Types) -> Callable[..., Any]:
