@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import saleg
-from saleg import design
+from saleg import design, laws
 from saleg.steady import lanes
 
 #: Peaks of the results, and the column of the history each is the greatest value of.
@@ -61,6 +61,15 @@ STEEP = [
 ]
 
 
+#: A burn profile whose third stretch, a step or two long, has the steepest rise within a step that
+#: begins at a breakpoint, both ends of it far lower.
+HUMP = laws.BurnProfile(
+    combustion_duration=2.0459906653272673e-4,
+    times=(0.0, 0.2, 0.7, 0.711789731634719, 1.0),
+    fractions=(0.0, 0.4982080313629953, 0.5807032715291061, 0.6149800284680454, 1.0),
+)
+
+
 def engines_around(base, count):
     """Random engines of the laws of the base case."""
     rng = np.random.default_rng(7)
@@ -84,6 +93,15 @@ def test_peaks_of_a_design_are_those_of_its_history(values):
     for name, column in PEAKS.items():
         highest = np.abs(cycle[column]).max() if column in "av" else cycle[column].max()
         assert performance[name] == pytest.approx(highest, rel=1e-3), name
+
+
+def test_a_peak_within_the_first_step_after_a_breakpoint_is_found(base):
+    engine = base.replace(heat_release=HUMP, equivalence_ratio=0.5)
+    peaks = [
+        saleg.steady_state(engine, rtol=rtol).performance.peak_pressure_rise
+        for rtol in (1e-5, 3e-6, 1e-6, 1e-8)
+    ]
+    assert peaks == pytest.approx([peaks[-1]] * 4, rel=1e-4)
 
 
 def test_peaks_of_many_engines_have_converged(base, monkeypatch):

@@ -12,6 +12,7 @@ from saleg.kernel.breathing import breathes, dilution, has_own_pressure
 from saleg.kernel.events import cubic, pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
+    BURNING,
     FUEL,
     G0,
     N_PEAKS,
@@ -176,11 +177,21 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
 
 
 @inline
+def is_burning(C, peak):
+    """Whether combustion drives a watched quantity: in its chamber, or in either."""
+    left, right = C[0].mode == BURNING, C[1].mode == BURNING
+    if peak == PEAK_ACCELERATION:
+        return left | right
+    return left if peak % 2 == 0 else right
+
+
+@inline
 def may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, trail):
     """Whether a quantity without a known rate may have a new peak within a step.
 
     Its values here and at the begin of the step before (in `trail`, whose last entry is the length
     of that step, 0 if it does not lead up to this one) rule most steps out; it costs no evaluation.
+    Where something burns, all may have begun and ended within the first step after an event.
     """
     before, h_before = trail[peak], trail[N_PEAKS]
     q0, q1 = watched(C, peak, y, dy), watched(C, peak, y_new, dy_new)
@@ -189,7 +200,7 @@ def may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, trail):
     reach = q0 + h * max(slope_before, 0.0)
     high = (q0 > PROMISING * peaks[peak]) | (q1 > PROMISING * peaks[peak]) | (reach > peaks[peak])
     slows = where(slope_before > 0.0, slope < GOES_ON_RISING * slope_before, slope > 0.0)
-    return high & (begins | slows)
+    return where(begins, high | is_burning(C, peak), high & slows)
 
 
 @inline
