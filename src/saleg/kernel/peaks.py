@@ -37,8 +37,10 @@ PROMISING = 0.7
 # Share of the slope of the step before from which a rise goes on beyond the end of a step: with a
 # peak within, it is at most half of it for a parabola.
 GOES_ON_RISING = 0.8
-# How near a cubic must come to the value at its maximum, relatively, and how often it is tried.
-CLOSE = 1e-4
+# How near a cubic must come to the value at its maximum, relatively: so many times the tolerance of
+# the steps, and this at least. And how often it is tried.
+CLOSE = 100.0
+LEAST_CLOSE = 1e-4
 LOOKS = 5
 
 
@@ -246,7 +248,7 @@ def value_and_rate(P, E, C, peak, t, way, y, dy, spare, slopes, motored):
 @compiled
 def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
     """Locate a peak within a step by shorter steps of the same method, and a cubic from there."""
-    t, motored = E.t, O.motored
+    t, motored, close = E.t, O.motored, min(CLOSE * O.tolerance, LEAST_CLOSE)
     last = tableau.b.shape[0]
     slopes, inner, dy = spare.slopes, spare.y_new, spare.rates[last]
     low, high = 0.0, h
@@ -272,7 +274,7 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
             low, q0, r0 = s, q, r
         else:
             high, q1, r1 = s, q, r
-        if abs(top - q) <= CLOSE * q:
+        if abs(top - q) <= close * q:
             rest = top_of_cubic(q0, r0, q1, r1, high - low)
             peaks[peak] = max(peaks[peak], cubic(q0, r0, q1, r1, high - low, rest))
             return
