@@ -37,8 +37,9 @@ def diagnosed(laws: Sequence[Kind], error: Exception) -> str:
             why = _trouble(law, lengths, method, base)
             if why:
                 return f"{law.__name__}.{method} {why}"
-    names = ", ".join(law.__name__ for law, _ in laws)
-    return f"the laws {names} cannot be compiled: {_reason(error)}"
+    names = [law.__name__ for law, _ in laws]
+    which = f"one of the laws {', '.join(names)}" if len(names) > 1 else f"the law {', '.join(names)}"
+    return f"{which} cannot be compiled: {_reason(error)}"
 
 
 def _trouble(law: Any, lengths: Lengths, method: str, base: type[Law]) -> str:
