@@ -37,9 +37,9 @@ def diagnosed(laws: Sequence[Kind], error: Exception) -> str:
             why = _trouble(law, lengths, method, base)
             if why:
                 return f"{law.__name__}.{method} {why}"
-    names = [law.__name__ for law, _ in laws]
-    which = f"one of the laws {', '.join(names)}" if len(names) > 1 else f"the law {', '.join(names)}"
-    return f"{which} cannot be compiled: {_reason(error)}"
+    names = ", ".join(law.__name__ for law, _ in laws)
+    which = "one of the laws" if len(laws) > 1 else "the law"
+    return f"{which} {names} cannot be compiled: {_reason(error)}"
 
 
 def _trouble(law: Any, lengths: Lengths, method: str, base: type[Law]) -> str:
