@@ -8,6 +8,9 @@ Entry points are always a module's own, for their machine code is kept under its
 Only kernels without laws (:mod:`~saleg.compiler.linking`) are composed so: what is kept of them
 names no module, where numba would look for an earlier one in the next process; and a law's function
 compiled for one record would serve another that begins alike.
+
+A module-level statement that only changes what another defines is executed for each module, on the
+shared object too, and a name that stands in a text is not seen: the kernel has neither.
 """
 
 from __future__ import annotations

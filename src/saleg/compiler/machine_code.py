@@ -1,6 +1,6 @@
 """What saleg knows of numba's inside.
 
-It stands here, in ``run_at.py``, ``inner_functions.py`` and ``linking.py`` only.
+It stands here, in ``run_at.py``, ``inner_functions.py``, ``linking.py`` and ``lanes`` only.
 
 Numba promises none of it. Each is a short cut with a longer way round, taken by itself where numba
 has changed:
@@ -43,6 +43,7 @@ ADDRESS_NEEDS = (
 #: What :mod:`~saleg.compiler.inner_functions` takes.
 INNER_NEEDS = (
     "llvmlite.binding:Linkage.external",
+    "numba.core.codegen:JITCodeLibrary._ensure_finalized",
     "numba.core.codegen:JITCodeLibrary._get_module_for_linking",
     "numba.core.codegen:JITCodeLibrary._raise_if_finalized",
     "numba.core.codegen:JITCodeLibrary._optimize_final_module",
@@ -76,6 +77,8 @@ LINKING_NEEDS = (
     "llvmlite.binding.newpassmanagers:ModulePassManager.add_instruction_combine_pass",
     "llvmlite.binding.newpassmanagers:ModulePassManager.add_simplify_cfg_pass",
     "llvmlite.binding.newpassmanagers:ModulePassManager.add_sroa_pass",
+    "numba.core.base:BaseContext.add_linking_libs",
+    "numba.core.base:BaseContext.get_function",
     "numba.core.base:BaseContext.make_tuple",
     "numba.core.base:BaseContext.push_code_library",
     "numba.core.callconv:CPUCallConv._get_arg_packer",

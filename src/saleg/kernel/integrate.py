@@ -298,6 +298,7 @@ def run_on(run):
                 keep_snapshot(run.words, y, run.snapshots.y)
             if code != END_OF_TIME:  # else what is due now is left to the call that goes on
                 switch(P, E, C, O, y, -1, peaks, tables, control)
+        changed = changed or landed >= 0  # rates at an event are those before it, and of close by
         if changed:
             spare.trail[N_PEAKS] = 0.0
             begin_anew(P, E, C, O, y, k[0], tables)

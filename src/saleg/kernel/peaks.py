@@ -12,7 +12,6 @@ from saleg.kernel.breathing import breathes, dilution, has_own_pressure
 from saleg.kernel.events import cubic, pressure_and_temperature
 from saleg.kernel.jit import compiled, inline
 from saleg.kernel.layout import (
-    BURNING,
     FUEL,
     G0,
     N_PEAKS,
@@ -82,13 +81,13 @@ def known_rate(C, peak, y, dy):
 
 
 @compiled
-def find_slopes(P, E, C, t, way, y, dy, spare, slopes, motored):
+def find_slopes(P, E, C, t, way, h, y, dy, spare, slopes, motored):
     """Time derivatives of acceleration and pressure rises, by a difference along the solution.
 
     Exact ones would need the derivative of every law. `way` is 1 for a difference with what
-    follows, -1 for one with what was before: at either end of a step it stays within.
+    follows, -1 for one with what was before: at either end of a step of `h` it stays within.
     """
-    dt = way * 1e-6 * E.length_scale / E.speed_scale
+    dt = way * min(1e-6 * E.length_scale / E.speed_scale, h)
     for n in range(N_STATE):
         spare.y[n] = y[n] + dt * dy[n]
     for n in range(FUEL, min(SUPPLIED, N_WANTED)):
@@ -179,21 +178,12 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
 
 
 @inline
-def is_burning(C, peak):
-    """Whether combustion drives a watched quantity: in its chamber, or in either."""
-    left, right = C[0].mode == BURNING, C[1].mode == BURNING
-    if peak == PEAK_ACCELERATION:
-        return left | right
-    return left if peak % 2 == 0 else right
-
-
-@inline
 def may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, trail):
     """Whether a quantity without a known rate may have a new peak within a step.
 
     Its values here and at the begin of the step before (in `trail`, whose last entry is the length
-    of that step, 0 if it does not lead up to this one) rule most steps out; it costs no evaluation.
-    Where something burns, all may have begun and ended within the first step after an event.
+    of that step) rule most steps out; it costs no evaluation. Within the first step after an event,
+    for which that length is 0, all may have begun and ended.
     """
     before, h_before = trail[peak], trail[N_PEAKS]
     q0, q1 = watched(C, peak, y, dy), watched(C, peak, y_new, dy_new)
@@ -202,7 +192,7 @@ def may_peak(C, peak, h, y, dy, y_new, dy_new, peaks, trail):
     reach = q0 + h * max(slope_before, 0.0)
     high = (q0 > PROMISING * peaks[peak]) | (q1 > PROMISING * peaks[peak]) | (reach > peaks[peak])
     slows = where(slope_before > 0.0, slope < GOES_ON_RISING * slope_before, slope > 0.0)
-    return where(begins, high | is_burning(C, peak), high & slows)
+    return begins | (high & slows)
 
 
 @inline
@@ -229,18 +219,18 @@ def known_value_and_rate(C, peak, y, dy):
 
 
 @inline
-def look_at(P, E, C, t, way, y, dy, spare, slopes, motored):
+def look_at(P, E, C, t, way, h, y, dy, spare, slopes, motored):
     """Find the slopes at one end of the present step, unless they are known."""
     if slopes[N_PEAKS] != E.steps:
-        find_slopes(P, E, C, t, way, y, dy, spare, slopes, motored)
+        find_slopes(P, E, C, t, way, h, y, dy, spare, slopes, motored)
         slopes[N_PEAKS] = E.steps
 
 
 @compiled
-def value_and_rate(P, E, C, peak, t, way, y, dy, spare, slopes, motored):
+def value_and_rate(P, E, C, peak, t, way, h, y, dy, spare, slopes, motored):
     """A watched quantity and its time derivative, on the later or the earlier side of a time."""
     if is_costly(peak):
-        look_at(P, E, C, t, way, y, dy, spare, slopes, motored)
+        look_at(P, E, C, t, way, h, y, dy, spare, slopes, motored)
         return watched(C, peak, y, dy), slopes[peak]
     return known_value_and_rate(C, peak, y, dy)
 
@@ -250,12 +240,13 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
     """Locate a peak within a step by shorter steps of the same method, and a cubic from there."""
     t, motored, close = E.t, O.motored, min(CLOSE * O.tolerance, LEAST_CLOSE)
     last = tableau.b.shape[0]
-    slopes, inner, dy = spare.slopes, spare.y_new, spare.rates[last]
+    end, dy = k[last], spare.rates[last]
+    slopes, inner = spare.slopes, spare.y_new
     low, high = 0.0, h
-    q0, r0 = value_and_rate(P, E, C, peak, t, 1.0, y, k[0], spare, slopes[0], motored)
+    q0, r0 = value_and_rate(P, E, C, peak, t, 1.0, h, y, k[0], spare, slopes[0], motored)
     if r0 <= 0.0:
         return
-    q1, r1 = value_and_rate(P, E, C, peak, t + h, -1.0, y_new, k[last], spare, slopes[1], motored)
+    q1, r1 = value_and_rate(P, E, C, peak, t + h, -1.0, h, y_new, end, spare, slopes[1], motored)
     peaks[peak] = max(peaks[peak], q0, q1)
     for _ in range(LOOKS):
         if r0 <= 0.0 or r1 > 0.0:
@@ -268,7 +259,9 @@ def approach_peak(P, E, C, O, tableau, h, y, k, y_new, peaks, spare, peak):
             spare.rates[0, n] = k[0, n]
         take_step(P, E, C, O, tableau, t, s, y, spare.rates, inner)
         slopes[2, N_PEAKS] = -1.0  # those of another place than before
-        q, r = value_and_rate(P, E, C, peak, t + s, 1.0, inner, dy, spare, slopes[2], motored)
+        q, r = value_and_rate(
+            P, E, C, peak, t + s, 1.0, h - s, inner, dy, spare, slopes[2], motored
+        )
         peaks[peak] = max(peaks[peak], q)
         if r > 0.0:
             low, q0, r0 = s, q, r
