@@ -31,8 +31,9 @@ from saleg.laws.choice import any_of, where
 
 # Part of a step over which its end may be moved to an event it was aimed at, over the fourth root
 # of the tolerance. The cubic through both ends is wrong by some h^4 / 24 times the fourth
-# derivative and the square of this part: below a hundredth of the tolerance.
+# derivative and the square of this part: below a hundredth of the tolerance. And the most there is.
 NEAR_AIM = 0.3
+MOST_AIM = 0.01
 
 
 @inline
@@ -279,7 +280,7 @@ def reached(P, E, C, O, stages, t, h, y, k, y_new, event):
     """
     g0, r0 = event_value(E, C, event, y), event_rate(E, C, event, y, k[0])
     g1, r1 = event_value(E, C, event, y_new), event_rate(E, C, event, y_new, k[stages])
-    room, s = h * min(NEAR_AIM * sqrt(sqrt(O.tolerance)), 0.05), h - g1 / r1
+    room, s = h * min(NEAR_AIM * sqrt(sqrt(O.tolerance)), MOST_AIM), h - g1 / r1
     if not abs(s - h) <= room:
         return -1.0
     for _ in range(2):
