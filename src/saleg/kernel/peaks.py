@@ -150,7 +150,8 @@ def watch_step(P, E, C, O, tableau, h, y, k, y_new, peaks, spare):
     """Take the peaks within a step from `y` to `y_new` into account.
 
     Only if the options ask for all (`peaks` = 2) are those of acceleration and pressure rise
-    located: that costs evaluations. Maxima at events are left to :func:`watch_point`.
+    located and the others approached by further steps: that costs evaluations. Maxima at events
+    are left to :func:`watch_point`.
     """
     if h <= 0.0:
         return

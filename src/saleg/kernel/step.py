@@ -55,8 +55,8 @@ def error_norm(E, C, h, y, y_new, k, tolerance):
 
     Position is measured by the stroke, velocity by the natural speed, theta (hence pressure)
     relatively, the ignition integral against the larger of itself and 1, masses in a chamber by
-    all of its gas. The estimated error of something that grows exponentially passes through zero
-    where it grows some twentyfold in a step, so there it is estimated in another way too.
+    all of its gas. Where the rate of the ignition integral grows manifold in a step its estimated
+    error may pass through zero, so there it is estimated in another way too.
     """
     worst, speed = abs(defect(k, X)) / E.length_scale, abs(defect(k, V)) / E.speed_scale
     worst, total = max(worst, speed), worst + speed  # the total is not finite if any of them is not
